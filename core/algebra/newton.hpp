@@ -1,0 +1,70 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string_view>
+
+#include "core/algebra/gmres.hpp"
+#include "core/algebra/linear_operator.hpp"
+#include "core/parallel/comm.hpp"
+
+namespace wingbeat {
+
+// F(u) = 0 with its Jacobian and a preconditioner for it. All calls are collective.
+class Problem {
+ public:
+  virtual ~Problem() = default;
+  virtual std::size_t local_size() const = 0;
+  // Returns false where F cannot be evaluated (a negative pressure, say): the step is then shortened.
+  virtual bool residual(std::span<const double> u, std::span<double> f) = 0;
+  // Makes jacobian() the exact Jacobian at u.
+  virtual void linearize(std::span<const double> u) = 0;
+  virtual const LinearOperator<double>& jacobian() const = 0;
+  // Rebuilds preconditioner() from the last linearization; called only when worth its cost.
+  virtual void refactor() = 0;
+  virtual bool is_factored() const = 0;
+  virtual const LinearOperator<double>& preconditioner() const = 0;
+  // Largest step in (0, 1] that keeps u + step du sensible; 1 unless overridden.
+  virtual double step_limit(std::span<const double> /*u*/, std::span<const double> /*du*/) const { return 1.0; }
+  // Whether u is converged by the problem's own measure of its rows, given F(u).
+  virtual bool is_converged(std::span<const double> f) const = 0;
+};
+
+struct NewtonOptions {
+  int max_iterations = 30;
+  double forcing_max = 1e-1;     // Eisenstat-Walker, choice 2 (doi:10.1137/0917003)
+  double forcing_min = 1e-6;
+  int refactor_iterations = 25;  // more Krylov iterations than this in a solve: refactor before the next
+  int max_backtracks = 8;
+  GmresOptions gmres{};
+};
+
+enum class SolveStatus { converged, stalled, iteration_limit, diverged, interrupted };
+std::string_view to_string(SolveStatus status);
+
+// What an observer is shown after every iteration (iteration 0 is the start).
+struct NewtonIteration {
+  int iteration = 0;
+  double residual_norm = 0.0;
+  double step = 0.0;
+  int linear_iterations = 0;
+  bool refactored = false;
+};
+
+struct NewtonResult {
+  SolveStatus status = SolveStatus::iteration_limit;
+  int iterations = 0;
+  int linear_iterations = 0;
+  int factorizations = 0;
+  double residual_norm = 0.0;
+};
+
+// Return false to stop early (a signal, a time limit): the status is then `interrupted`.
+using NewtonObserver = std::function<bool(const NewtonIteration&, std::span<const double> u)>;
+
+// Inexact Newton with a backtracking line search on |F|, Eisenstat-Walker forcing and lazy
+// refactorization; u holds the start on entry and the solution on return.
+NewtonResult newton(const Comm& comm, Problem& problem, std::span<double> u, const NewtonOptions& options,
+                    const NewtonObserver& observer = {});
+
+}  // namespace wingbeat
