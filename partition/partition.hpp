@@ -1,0 +1,48 @@
+#pragma once
+
+#include <vector>
+
+#include "core/mesh/multiblock_mesh.hpp"
+
+namespace wingbeat {
+
+// A box of cells of one zone, given to one rank.
+template <int Dim>
+struct SubBlock {
+  int zone = 0;
+  Box<Dim> cells;
+  int rank = 0;
+};
+
+// Every cell of the mesh belongs to exactly one sub-block; every rank has at least one.
+template <int Dim>
+struct Partition {
+  int ranks = 1;
+  std::vector<SubBlock<Dim>> blocks;
+};
+
+struct PartitionOptions {
+  double imbalance = 0.05;  // allowed excess of the heaviest rank over the mean
+};
+
+// What a partition costs: printed before a run.
+struct PartitionStatistics {
+  int ranks = 1;
+  std::size_t blocks = 0;
+  double imbalance = 0.0;      // heaviest rank over mean, minus one
+  std::size_t edge_cut = 0;    // cell faces between different ranks
+  std::size_t halo_cells = 0;  // ghost cells received, summed over ranks (two layers)
+  std::size_t halo_bytes = 0;  // bytes of one exchange of the state of all instances
+};
+
+// Splits the zones, weighs sub-blocks by cells x instances and divides the graph of sub-blocks,
+// its edges weighted by shared faces, by METIS k-way. Deterministic.
+// Throws InputError when there are more ranks than cells.
+template <int Dim>
+Partition<Dim> partition_mesh(const MultiblockMesh<Dim>& mesh, int ranks, const PartitionOptions& options);
+
+template <int Dim>
+PartitionStatistics partition_statistics(const MultiblockMesh<Dim>& mesh, const Partition<Dim>& partition,
+                                         int instances);
+
+}  // namespace wingbeat
