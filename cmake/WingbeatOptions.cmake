@@ -23,6 +23,8 @@ target_include_directories(wingbeat_options INTERFACE ${CMAKE_SOURCE_DIR})
 # Finite-math stays off: NaN checks must survive optimisation.
 target_compile_options(wingbeat_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+  # GCC 12 reports its own AVX-512 headers as uninitialised.
+  -Wno-uninitialized -Wno-maybe-uninitialized
   -fno-math-errno -fno-trapping-math
   $<$<NOT:$<STREQUAL:${WINGBEAT_ARCH},>>:-march=${WINGBEAT_ARCH}>
   $<$<BOOL:${WINGBEAT_WERROR}>:-Werror>)

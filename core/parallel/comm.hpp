@@ -35,6 +35,7 @@ class Comm {
 
   // Values of every rank in rank order, on rank 0 (empty elsewhere) or on all ranks.
   std::vector<double> gather(std::span<const double> values) const;
+  std::vector<long> gather(std::span<const long> values) const;
   std::vector<long> all_gather(long value) const;
 
   // Sends outgoing[rank] to each rank and returns what each rank sent here.
@@ -50,6 +51,7 @@ class Comm {
 };
 
 // Initialises MPI for the life of the program; BLAS is kept to one thread a rank.
+// Catch exceptions within that life: MPI_Finalize waits for the other ranks.
 class MpiSession {
  public:
   MpiSession(int& argc, char**& argv);

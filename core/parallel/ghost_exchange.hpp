@@ -39,9 +39,12 @@ class GhostExchange {
     int rank = 0;
     std::vector<int> indices;  // ghosts received from, or owned entries sent to, that rank
   };
+  void check_sizes(std::size_t owned, std::size_t ghosts, int instances, int width) const;
+
   std::vector<GhostSource> sources_;
   std::vector<Neighbour> receives_;
   std::vector<Neighbour> sends_;
+  int required_entries_ = 0;  // owned entries up to the last one that any rank asks for
   MPI_Comm handle_ = MPI_COMM_SELF;
 };
 

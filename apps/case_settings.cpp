@@ -1,0 +1,34 @@
+#include "apps/case_settings.hpp"
+
+#include "core/io/case_file.hpp"
+#include "core/io/setting_text.hpp"
+
+namespace wingbeat {
+
+void CaseSettings::describe(SettingRegistry& registry) {
+  registry.add_section("mesh", "The section and the mesh around it.", mesh);
+  registry.add_section("partition", "How cells are shared among ranks.", partition);
+  registry.add_section("flow", "The free stream, the gas and the scheme.", flow);
+  registry.add_section("pitch", "Prescribed pitch of the section.", pitch);
+  registry.add_section("time", "The period in time.", time);
+  registry.add_section(
+      "structure", "The pitch-plunge section, made dimensionless by semichord and omega_alpha.", structure);
+  registry.add_section("flutter", "The flutter boundary and its linear start.", flutter);
+  registry.add_section("pk", "The table of frequency and damping against reduced velocity.", pk);
+  registry.add_section("solver", "How the equations are solved, and how far.", solver);
+}
+
+ResolvedCase resolve_case(const std::string& text, const std::string& path,
+                          const std::vector<std::string>& overrides,
+                          const std::vector<std::string>& used_sections, const std::string& reader) {
+  CaseFile file(text, path);
+  for (const auto& assignment : overrides) file.add_override(assignment);
+  ResolvedCase resolved;
+  SettingRegistry registry;
+  resolved.settings.describe(registry);
+  file.apply(registry, used_sections, reader);
+  resolved.text = resolved_case(registry);
+  return resolved;
+}
+
+}  // namespace wingbeat

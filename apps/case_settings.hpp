@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/algebra/solver_settings.hpp"
+#include "core/io/settings.hpp"
+#include "core/mesh/mesh_settings.hpp"
+#include "core/spectral/time_settings.hpp"
+#include "flow/flow_settings.hpp"
+#include "flow/pitch_settings.hpp"
+#include "partition/partition_settings.hpp"
+#include "structure/flutter_settings.hpp"
+#include "structure/structure_settings.hpp"
+
+namespace wingbeat {
+
+// Every section of a case. Parts of the program are given the section they need.
+struct CaseSettings {
+  MeshSettings mesh;
+  PartitionSettings partition;
+  FlowSettings flow;
+  PitchSettings pitch;
+  TimeSettings time;
+  StructureSettings structure;
+  FlutterSettings flutter;
+  PkSettings pk;
+  SolverSettings solver;
+
+  void describe(SettingRegistry& registry);
+};
+
+// A case as read, and as text that reads back to the same values.
+struct ResolvedCase {
+  CaseSettings settings;
+  std::string text;
+};
+
+// Reads a case from its text, its path as the user gave it, and `section.key=value` overrides.
+// Throws InputError listing all faults; required keys are those of `used_sections`.
+ResolvedCase resolve_case(const std::string& text, const std::string& path,
+                          const std::vector<std::string>& overrides,
+                          const std::vector<std::string>& used_sections, const std::string& reader);
+
+}  // namespace wingbeat

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "apps/case_settings.hpp"
+#include "apps/stop_request.hpp"
+#include "core/io/log.hpp"
+#include "core/io/result.hpp"
+#include "core/io/timer.hpp"
+#include "core/parallel/comm.hpp"
+
+namespace wingbeat {
+
+// What a recipe works with.
+struct Context {
+  const Comm& comm;
+  const CaseSettings& settings;
+  std::filesystem::path output;                  // folder of the results; exists
+  std::optional<std::filesystem::path> restart;  // solution to start from
+  int planned_ranks;                             // of a partition: --ranks, or those that run
+  Log& log;                                      // rank 0 speaks
+  Timer& timer;
+  Result& result;           // findings and message are the recipe's; written by rank 0 afterwards
+  const StopRequest& stop;  // poll it where a checkpoint can be written
+};
+
+}  // namespace wingbeat

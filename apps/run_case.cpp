@@ -1,0 +1,149 @@
+#include "apps/run_case.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "apps/on_root.hpp"
+#include "apps/timing.hpp"
+#include "apps/verbs.hpp"
+#include "apps/version.hpp"
+#include "core/io/case_file.hpp"
+#include "core/io/file.hpp"
+#include "core/parallel/failure_agreement.hpp"
+
+namespace wingbeat {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Failure {
+  int exit_code = exit_internal;
+  std::string message;
+};
+
+const Verb& find_verb(const std::string& name) {
+  const auto found = std::ranges::find(verbs(), name, &Verb::name);
+  ensure(found != verbs().end(), "verb without a recipe: " + name);
+  return *found;
+}
+
+int exit_code_of(SolveStatus status) {
+  if (status == SolveStatus::converged) return exit_converged;
+  return status == SolveStatus::interrupted ? exit_stopped : exit_not_converged;
+}
+
+// Rank 0 reads, so that every rank sees the same text and finds the same faults.
+ResolvedCase read_case(const Comm& comm, const CommandLine& command, const Verb& verb) {
+  std::string text;
+  on_root(comm, [&] { text = read_case_text(command.target); });
+  text = comm.broadcast(text);
+  return resolve_case(text, command.target, command.overrides, verb.sections, "wingbeat " + verb.name);
+}
+
+void prepare_output(const Comm& comm, const CommandLine& command, const ResolvedCase& resolved, Log& log) {
+  on_root(comm, [&] {
+    const std::string head =
+        fmt::format("# wingbeat {} ({}): {} {} on {} rank{}\n\n", version(), git_commit(), command.verb,
+                    command.target, comm.size(), comm.size() == 1 ? "" : "s");
+    write_file(command.output / "case.toml", head + resolved.text);
+    log.copy_to(command.output / "log.txt");
+  });
+}
+
+// A result of an earlier run must not be taken for one of this run.
+void remove_old_result(const Comm& comm, const fs::path& output) {
+  on_root(comm, [&] {
+    std::error_code ignored;
+    fs::remove(output / "result.json", ignored);
+  });
+}
+
+void finish(const Comm& comm, Context& context) {
+  const auto timings = gather_timings(comm, context.timer);
+  for (const auto& timing : timings) context.result.wall_seconds.emplace_back(timing.path, timing.maximum);
+  context.log.line(timing_table(timings));
+  on_root(comm, [&] { context.result.write(context.output / "result.json"); });
+  context.log.line("{} {}: results in {}", context.result.command, context.result.status,
+                   context.output.string());
+}
+
+int execute(const Comm& comm, const CommandLine& command, Result& result, Timer& timer) {
+  const Verb& verb = find_verb(command.verb);
+  if (!command.dry_run) remove_old_result(comm, command.output);
+  const ResolvedCase resolved = read_case(comm, command, verb);
+  Log log(comm.is_root());
+  if (command.dry_run) {
+    log.line(resolved.text);
+    return exit_converged;
+  }
+  if (command.restart)
+    on_root(comm, [&] {
+      if (!fs::is_regular_file(*command.restart))
+        throw InputError(fmt::format("command line: --restart {}: no such file", command.restart->string()));
+    });
+  prepare_output(comm, command, resolved, log);
+  const StopRequest stop(comm, command.walltime);
+  Context context{.comm = comm,
+                  .settings = resolved.settings,
+                  .output = command.output,
+                  .restart = command.restart,
+                  .planned_ranks = command.ranks.value_or(comm.size()),
+                  .log = log,
+                  .timer = timer,
+                  .result = result,
+                  .stop = stop};
+  const SolveStatus status = verb.run(context);
+  result.status = to_string(status);
+  finish(comm, context);
+  return exit_code_of(status);
+}
+
+void write_failure(const CommandLine& command, Result& result, const Timer& timer,
+                   const std::string& message) {
+  if (command.dry_run) return;
+  result.status = "error";
+  result.message = message;
+  result.wall_seconds = {{"total", timer.elapsed()}};
+  try {
+    result.write(command.output / "result.json");
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "wingbeat: {}\n", error.what());
+  }
+}
+
+}  // namespace
+
+int run_case(const Comm& comm, const CommandLine& command) {
+  const FailureAgreement agreement(comm);
+  Timer timer;
+  Result result{.command = command.verb, .ranks = comm.size(), .version = std::string(version())};
+  Failure failure;
+  try {
+    return execute(comm, command, result, timer);
+  } catch (const InputError& error) {
+    failure = {exit_bad_input, error.what()};
+  } catch (const std::bad_alloc&) {
+    failure = {exit_internal, "out of memory; use more ranks or a smaller case"};
+  } catch (const std::exception& error) {
+    failure = {exit_internal, fmt::format("internal error, please report it: {}", error.what())};
+  }
+
+  constexpr double patience_seconds = 10.0;
+  if (agreement.all_failed(patience_seconds)) {
+    if (comm.is_root()) {
+      fmt::print(stderr, "wingbeat: {}\n", failure.message);
+      write_failure(command, result, timer, failure.message);
+    }
+    // Ranks may have failed in different ways: the gravest decides.
+    return static_cast<int>(comm.max(failure.exit_code));
+  }
+  const std::string message = fmt::format("rank {}: {}", comm.rank(), failure.message);
+  fmt::print(stderr, "wingbeat: {}\n", message);
+  write_failure(command, result, timer, message);
+  agreement.abort(failure.exit_code);
+}
+
+}  // namespace wingbeat

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <chrono>
+#include <optional>
+
+#include "core/parallel/comm.hpp"
+
+namespace wingbeat {
+
+// Whether a run should end early: SIGTERM or SIGUSR1 has reached a rank, or its wall time is used up.
+class StopRequest {
+ public:
+  // Catches both signals from now on. `walltime` in seconds from now; none: unlimited.
+  StopRequest(const Comm& comm, std::optional<double> walltime);
+
+  // Collective: all ranks get the same answer.
+  bool is_set() const;
+
+ private:
+  const Comm* comm_;
+  std::optional<std::chrono::steady_clock::time_point> deadline_;
+};
+
+}  // namespace wingbeat

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "apps/context.hpp"
+#include "core/algebra/newton.hpp"
+
+namespace wingbeat {
+
+// A recipe computes what its verb promises, writes its files into context.output (rank 0) and
+// fills context.result. It is collective. It returns how the solution ended; the caller writes
+// result.json and turns the status into the exit code. Faults of the input are InputError.
+SolveStatus run_mesh(Context& context);
+SolveStatus run_partition(Context& context);
+
+// A verb of the command line that works on a case.
+struct Verb {
+  std::string name;
+  std::string help;
+  std::vector<std::string> sections;  // whose required keys the case must give
+  SolveStatus (*run)(Context&);
+};
+
+std::span<const Verb> verbs();
+
+}  // namespace wingbeat

@@ -1,0 +1,32 @@
+#include "core/algebra/solver_settings.hpp"
+
+namespace wingbeat {
+
+void SolverSettings::describe(SettingSection& keys) {
+  keys.add(
+      "method", &method,
+      {.help = "coupled: Newton on flow, structure, phase and amplitude at once", .allowed = {"coupled"}});
+  keys.add("steady_tolerance", &steady_tolerance,
+           {.help = "steady flow residual, relative to uniform flow", .range = open_interval(0, 1)});
+  keys.add("flow_tolerance", &flow_tolerance,
+           {.help = "flow residual of the periodic problem, relative to uniform flow at rest",
+            .range = open_interval(0, 1)});
+  keys.add("structure_tolerance", &structure_tolerance,
+           {.help = "scaled residuals of structure, phase and energy", .range = open_interval(0, 1)});
+  keys.add("max_steady_iterations", &max_steady_iterations,
+           {.help = "pseudo-transient Newton iterations allowed on a mesh", .range = between(1, 100000)});
+  keys.add("max_newton_iterations", &max_newton_iterations,
+           {.help = "Newton iterations allowed for the coupled problem", .range = between(1, 10000)});
+  keys.add("max_linear_iterations", &max_linear_iterations,
+           {.help = "GMRES iterations allowed in one linear solve", .range = between(1, 100000)});
+  keys.add("krylov_restart", &krylov_restart,
+           {.help = "GMRES vectors kept before a restart", .range = between(2, 10000)});
+  keys.add(
+      "overlap", &overlap,
+      {.help = "layers of cells shared by the ranks' subdomain factorisations", .range = between(0, 64)});
+  keys.add(
+      "coarse_levels", &coarse_levels,
+      {.help = "coarser meshes solved first; each halves the cells of a direction", .range = between(0, 8)});
+}
+
+}  // namespace wingbeat

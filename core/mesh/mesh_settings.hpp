@@ -1,0 +1,27 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/io/settings.hpp"
+
+namespace wingbeat {
+
+// [mesh]: a section and the built-in O-mesh around it, or a mesh file.
+struct MeshSettings {
+  std::optional<std::string> airfoil;  // a name, or the path of a file of ordinates
+  std::optional<std::string> file;     // CGNS or Plot3D
+  std::array<int, 2> cells{250, 50};   // around the section, normal to it
+  double farfield_chords = 60.0;
+  std::optional<double> stretching;  // of steps in log(radius); square cells at the wall when empty
+  int blocks = 1;
+
+  void describe(SettingSection& keys);
+};
+
+// Whether the text names a built-in section (naca64a010, or NACA and four digits) rather than a file.
+bool is_airfoil_name(std::string_view text);
+
+}  // namespace wingbeat

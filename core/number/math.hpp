@@ -1,0 +1,105 @@
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <experimental/simd>
+
+#include "core/number/dual.hpp"
+#include "core/number/pack.hpp"
+
+// Elementary functions that read the same for double, Pack and Dual: kernels call these
+// unqualified and never branch with `if` on a number. A branch decides on values; the branch
+// taken is the derivative.
+namespace wingbeat {
+
+template <class T>
+inline constexpr int lanes = 1;
+template <>
+inline constexpr int lanes<Pack> = static_cast<int>(Pack::size());
+template <class T, int N>
+inline constexpr int lanes<Dual<T, N>> = lanes<T>;
+
+inline double sqrt(double x) { return std::sqrt(x); }
+inline Pack sqrt(const Pack& x) { return std::experimental::sqrt(x); }
+template <class T, int N>
+Dual<T, N> sqrt(const Dual<T, N>& x) {
+  const T root = sqrt(x.value);
+  return chain(x, root, T(0.5) / root);
+}
+
+// x^exponent for x > 0.
+inline double power(double x, double exponent) { return std::pow(x, exponent); }
+template <class T, int N>
+Dual<T, N> power(const Dual<T, N>& x, double exponent) {
+  const T y = power(x.value, exponent);
+  return chain(x, y, exponent * y / x.value);
+}
+
+inline double select(bool condition, double a, double b) { return condition ? a : b; }
+inline Pack select(const Pack::mask_type& condition, const Pack& a, Pack b) {
+  std::experimental::where(condition, b) = a;
+  return b;
+}
+template <class Mask, class T, int N>
+Dual<T, N> select(const Mask& condition, const Dual<T, N>& a, const Dual<T, N>& b) {
+  Dual<T, N> result(select(condition, a.value, b.value));
+  for (int i = 0; i < N; ++i) result.gradient[i] = select(condition, a.gradient[i], b.gradient[i]);
+  return result;
+}
+
+template <class T>
+T abs(const T& x) {
+  return select(x < T(0.0), -x, x);
+}
+template <class T>
+T max(const T& a, const T& b) {
+  return select(a < b, b, a);
+}
+template <class T>
+T min(const T& a, const T& b) {
+  return select(b < a, b, a);
+}
+
+// x^(2/3) for x > 0, to round-off. Starts from the exponent bits scaled by 2/3 (error below
+// 4 %) and converges cubically by Halley's iteration on y^3 = x^2; branch-free, so that plain
+// loops over it vectorise.
+inline double power_two_thirds(double x) {
+  constexpr double bits_of_one = 4607182418800017408.0;
+  const auto bits = static_cast<double>(std::bit_cast<std::int64_t>(x));
+  double y = std::bit_cast<double>(static_cast<std::int64_t>(bits_of_one + (bits - bits_of_one) * (2.0 / 3.0)));
+  const double square = x * x;
+  for (int iteration = 0; iteration < 3; ++iteration) {
+    const double cube = y * y * y;
+    y *= (cube + 2.0 * square) / (2.0 * cube + square);
+  }
+  return y;
+}
+inline Pack power_two_thirds(const Pack& x) {
+  alignas(64) double values[lanes<Pack>];
+  x.copy_to(values, std::experimental::vector_aligned);
+  for (double& value : values) value = power_two_thirds(value);
+  return Pack(values, std::experimental::vector_aligned);
+}
+template <class T, int N>
+Dual<T, N> power_two_thirds(const Dual<T, N>& x) {
+  const T y = power_two_thirds(x.value);
+  return chain(x, y, T(2.0 / 3.0) * y / x.value);
+}
+
+// Loads lanes<T> consecutive values, or one.
+template <class T>
+struct Load {
+  static T from(const T* values) { return *values; }
+};
+template <>
+struct Load<Pack> {
+  static Pack from(const double* values) { return Pack(values, std::experimental::element_aligned); }
+};
+inline void store(const Pack& x, double* values) { x.copy_to(values, std::experimental::element_aligned); }
+template <class T>
+void store(const T& x, T* values) {
+  *values = x;
+}
+
+}  // namespace wingbeat

@@ -1,0 +1,251 @@
+#include "flow/flow_jacobian.hpp"
+
+#include "flow/boundary.hpp"
+#include "flow/cell_quantities.hpp"
+#include "flow/moved_face.hpp"
+
+namespace wingbeat {
+namespace {
+
+// A face's flux as a function of what it reads: the four states, their pressures and the two
+// radii, all independent. Chaining with the cell derivatives comes after: a cell beyond a
+// physical boundary is extrapolated in state and pressure separately.
+template <int Dim>
+struct FaceSeeds {
+  static constexpr int n = state_size<Dim>;
+  static constexpr int state(int k, int v) { return k * n + v; }
+  static constexpr int pressure(int k) { return 4 * n + k; }
+  static constexpr int radius(int k) { return 4 * n + 4 + k; }
+  static constexpr int count = 4 * n + 6;
+};
+
+// Gradients of the flux of several consecutive faces: [flux row][seed][lane].
+template <int Dim>
+using FaceGradients =
+    std::array<std::array<std::array<double, lanes<Pack>>, FaceSeeds<Dim>::count>, state_size<Dim>>;
+
+template <int Dim>
+void differentiate_faces(const BlockGeometry<Dim>& geometry, const BlockState<Dim, double>& state,
+                         const RigidMotion<Pack>& motion, int d, std::ptrdiff_t o, const JstCoefficients& jst,
+                         FaceGradients<Dim>& gradients) {
+  using Seeds = FaceSeeds<Dim>;
+  using D = Dual<Pack, Seeds::count>;
+  const std::ptrdiff_t step = geometry.layout.strides[d];
+  FaceStencil<Dim, D> cells;
+  for (int k = 0; k < 4; ++k) {
+    const std::ptrdiff_t cell = o + (k - 2) * step;
+    for (int v = 0; v < state_size<Dim>; ++v)
+      cells.w[k][v] = D::seed(Load<Pack>::from(state.w[v].data() + cell), Seeds::state(k, v));
+    cells.p[k] = D::seed(Load<Pack>::from(state.p.data() + cell), Seeds::pressure(k));
+  }
+  for (int k = 0; k < 2; ++k)
+    cells.radius[k] = D::seed(Load<Pack>::from(state.radius[d].data() + o + (k - 1) * step), Seeds::radius(k));
+  const D sensor_left = pressure_sensor<D>(cells.p[0], cells.p[1], cells.p[2], jst);
+  const D sensor_right = pressure_sensor<D>(cells.p[1], cells.p[2], cells.p[3], jst);
+  const auto face = moved_face<Dim, Pack>(geometry, motion, d, o);
+  const auto flux = jst_flux<Dim, D, Pack>(cells, sensor_left, sensor_right, face.normal, face.sweep, jst);
+  for (int row = 0; row < state_size<Dim>; ++row)
+    for (int s = 0; s < Seeds::count; ++s) store(flux[row].gradient[s], gradients[row][s].data());
+}
+
+// Adds one face's derivatives with respect to stencil cell k, carried by the state and pressure of
+// the cell at `source` with the given weight, to the rows of the two cells beside the face.
+template <int Dim>
+struct FaceScatter {
+  static constexpr int n = state_size<Dim>;
+  const CellDerivatives<Dim>& cells;
+  const FaceGradients<Dim>& gradients;
+  BlockSparse<n>& matrix;
+  int d;
+  std::ptrdiff_t face;   // offset: cell 2 of the stencil
+  std::ptrdiff_t step;   // stride of direction d
+  std::size_t lane;
+
+  std::ptrdiff_t cell(int k) const { return face + (k - 2) * step; }
+
+  // k: what the flux reads; source: the stencil cell whose state that is, times weight.
+  void add(int k, int source, double weight) const {
+    using Seeds = FaceSeeds<Dim>;
+    const auto at = static_cast<std::size_t>(cell(source));
+    std::array<double, n * n> block;
+    for (int row = 0; row < n; ++row) {
+      const auto& g = gradients[row];
+      const double by_pressure = g[Seeds::pressure(k)][lane];
+      for (int v = 0; v < n; ++v)
+        block[row * n + v] = weight * (g[Seeds::state(k, v)][lane] + by_pressure * cells.pressure[v][at]);
+      if (k == source && (k == 1 || k == 2)) {
+        const double by_radius = g[Seeds::radius(k - 1)][lane];
+        for (int v = 0; v < n; ++v) block[row * n + v] += by_radius * cells.radius[d][v][at];
+      }
+    }
+    add_to_row(1, source, +1.0, block);
+    add_to_row(2, source, -1.0, block);
+  }
+
+  // The flux leaves cell 1 and enters cell 2.
+  void add_to_row(int row_cell, int column_cell, double sign, const std::array<double, n * n>& block) const {
+    const int slot = CellDerivatives<Dim>::slot(d, column_cell - row_cell);
+    const int position = cells.positions[slot][static_cast<std::size_t>(cell(row_cell))];
+    if (position < 0) return;
+    auto values = matrix.block(static_cast<std::size_t>(position));
+    for (std::size_t i = 0; i < n * n; ++i) values[i] += sign * block[i];
+  }
+};
+
+template <int Dim>
+void assemble_interior(const FlowBlock<Dim>& block, const RigidMotion<double>& motion, int d,
+                       const JstCoefficients& jst, const CellDerivatives<Dim>& cells,
+                       BlockSparse<state_size<Dim>>& matrix) {
+  const auto& layout = block.geometry.layout;
+  const std::ptrdiff_t step = layout.strides[d];
+  const auto wide_motion = widen(motion);
+  const auto exists = [&](std::ptrdiff_t o) { return block.number[static_cast<std::size_t>(o)] >= 0; };
+  const auto owns_row = [&](std::ptrdiff_t o) { return cells.positions[0][static_cast<std::size_t>(o)] >= 0; };
+  Box<Dim> faces = box_of<Dim>(layout.extents);
+  ++faces.end[d];
+  const std::ptrdiff_t last = layout.last(faces);
+  FaceGradients<Dim> gradients;
+  for (std::ptrdiff_t o = layout.first(faces); o < last; o += lanes<Pack>) {
+    differentiate_faces<Dim>(block.geometry, cells.state, wide_motion, d, o, jst, gradients);
+    for (std::ptrdiff_t face = o; face < std::min(o + lanes<Pack>, last); ++face) {
+      const bool interior = exists(face - step) && exists(face);
+      if (!interior || !(owns_row(face - step) || owns_row(face))) continue;
+      const FaceScatter<Dim> scatter{cells, gradients, matrix, d, face, step, static_cast<std::size_t>(face - o)};
+      scatter.add(1, 1, 1.0);
+      scatter.add(2, 2, 1.0);
+      // The outer cells, or the two inner ones they are extrapolated from.
+      if (exists(face - 2 * step)) {
+        scatter.add(0, 0, 1.0);
+      } else {
+        scatter.add(0, 1, 2.0);
+        scatter.add(0, 2, -1.0);
+      }
+      if (exists(face + step)) {
+        scatter.add(3, 3, 1.0);
+      } else {
+        scatter.add(3, 2, 2.0);
+        scatter.add(3, 1, -1.0);
+      }
+    }
+  }
+}
+
+template <int Dim>
+void assemble_boundary(const FlowBlock<Dim>& block, const RigidMotion<double>& motion,
+                       const FlowModel<Dim, double>& model, const CellDerivatives<Dim>& cells,
+                       BlockSparse<state_size<Dim>>& matrix) {
+  constexpr int n = state_size<Dim>;
+  State<Dim, Dual<double, n>> outside;
+  const State<Dim, double> freestream = model.freestream.state();
+  for (int v = 0; v < n; ++v) outside[v] = freestream[v];
+
+  for (const BoundaryFace& boundary : block.boundary) {
+    const auto face = moved_face<Dim, double>(block.geometry, motion, boundary.direction, boundary.face);
+    const Vec<double, Dim> outward = boundary.outward * face.normal;
+    const double sweep = boundary.outward * face.sweep;
+    const auto row = static_cast<std::size_t>(boundary.first);
+    const auto add = [&](std::ptrdiff_t column, auto&& derivative) {
+      const int step = column == boundary.first ? 0 : (boundary.outward > 0 ? -1 : 1);
+      const int position = cells.positions[CellDerivatives<Dim>::slot(boundary.direction, step)][row];
+      auto values = matrix.block(static_cast<std::size_t>(position));
+      for (int i = 0; i < n; ++i)
+        for (int v = 0; v < n; ++v) values[static_cast<std::size_t>(i * n + v)] += derivative(i, v);
+    };
+    if (boundary.type == BoundaryType::farfield) {
+      State<Dim, Dual<double, n>> interior;
+      for (int v = 0; v < n; ++v) interior[v] = Dual<double, n>::seed(cells.state.w[v][row], v);
+      const auto flux =
+          farfield_flux<Dim, Dual<double, n>, double>(interior, outside, outward, sweep, model.freestream.gamma);
+      add(boundary.first, [&](int i, int v) { return flux[i].gradient[v]; });
+    } else {
+      const auto second = static_cast<std::size_t>(boundary.second);
+      const auto p_wall = wall_pressure(Dual<double, 2>::seed(cells.state.p[row], 0),
+                                        Dual<double, 2>::seed(cells.state.p[second], 1));
+      const auto flux = wall_flux<Dim, Dual<double, 2>, double>(p_wall, outward, sweep);
+      add(boundary.first, [&](int i, int v) { return flux[i].gradient[0] * cells.pressure[v][row]; });
+      add(boundary.second, [&](int i, int v) { return flux[i].gradient[1] * cells.pressure[v][second]; });
+    }
+  }
+}
+
+template <int Dim>
+void differentiate_cells(const BlockGeometry<Dim>& geometry, const RigidMotion<double>& motion, double gamma,
+                         CellDerivatives<Dim>& cells) {
+  constexpr int n = state_size<Dim>;
+  using D = Dual<Pack, n>;
+  const auto& layout = geometry.layout;
+  const auto wide_motion = widen(motion);
+  const auto seeded = [&](std::ptrdiff_t o) {
+    State<Dim, D> w;
+    for (int v = 0; v < n; ++v) w[v] = D::seed(Load<Pack>::from(cells.state.w[v].data() + o), v);
+    return w;
+  };
+  const Box<Dim> all = grown(box_of<Dim>(layout.extents), halo_layers);
+  for (std::ptrdiff_t o = layout.first(all); o < layout.last(all); o += lanes<Pack>) {
+    const D p = pressure<Dim, D>(seeded(o), gamma);
+    for (int v = 0; v < n; ++v) store(p.gradient[v], cells.pressure[v].data() + o);
+  }
+  const Box<Dim> near = grown(box_of<Dim>(layout.extents), 1);
+  for (std::ptrdiff_t o = layout.first(near); o < layout.last(near); o += lanes<Pack>) {
+    const auto w = seeded(o);
+    const auto faces = mean_faces<Dim, Pack>(geometry, wide_motion, o);
+    const auto radii = scaled_radii(
+        spectral_radii<Dim, D, Pack>(w, pressure<Dim, D>(w, gamma), faces.normals, faces.sweeps, gamma));
+    for (int d = 0; d < Dim; ++d) {
+      store(radii[d].value, cells.state.radius[d].data() + o);
+      for (int v = 0; v < n; ++v) store(radii[d].gradient[v], cells.radius[d][v].data() + o);
+    }
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+CellDerivatives<Dim>::CellDerivatives(const FlowBlock<Dim>& block, const BlockPattern& pattern,
+                                      const State<Dim, double>& fill)
+    : state(block.geometry.layout, fill) {
+  const auto& layout = block.geometry.layout;
+  for (auto& values : pressure) values.assign(layout.size, 0.0);
+  for (auto& direction : radius)
+    for (auto& values : direction) values.assign(layout.size, 0.0);
+  for (auto& values : positions) values.assign(layout.size, -1);
+  for_each(box_of<Dim>(layout.extents), [&](const Index<Dim>& cell) {
+    const std::ptrdiff_t o = layout.offset(cell);
+    const auto at = static_cast<std::size_t>(o);
+    const int row = block.number[at];
+    positions[0][at] = pattern.find(row, row);
+    for (int d = 0; d < Dim; ++d)
+      for (int step : {-2, -1, 1, 2}) {
+        const int column = block.number[static_cast<std::size_t>(o + step * layout.strides[d])];
+        if (column >= 0) positions[slot(d, step)][at] = pattern.find(row, column);
+      }
+  });
+}
+
+template <int Dim>
+FlowJacobian<Dim>::FlowJacobian(const FlowDomain<Dim>& domain, const FlowModel<Dim, double>& model)
+    : domain_(domain), model_(model) {
+  for (const auto& block : domain.blocks()) cells_.emplace_back(block, *domain.pattern(), model.freestream.state());
+}
+
+template <int Dim>
+void FlowJacobian<Dim>::assemble(std::span<const double> w, std::span<const double> ghosts,
+                                 const RigidMotion<double>& motion, BlockSparse<state_size<Dim>>& matrix) {
+  matrix.set_zero();
+  const double gamma = model_.freestream.gamma;
+  for (std::size_t b = 0; b < cells_.size(); ++b) {
+    const FlowBlock<Dim>& block = domain_.blocks()[b];
+    CellDerivatives<Dim>& cells = cells_[b];
+    load_block<Dim, double>(block, domain_.owned_count(), w, ghosts, gamma, cells.state);
+    differentiate_cells<Dim>(block.geometry, motion, gamma, cells);
+    for (int d = 0; d < Dim; ++d) assemble_interior<Dim>(block, motion, d, model_.jst, cells, matrix);
+    assemble_boundary<Dim>(block, motion, model_, cells, matrix);
+  }
+}
+
+template struct CellDerivatives<2>;
+template struct CellDerivatives<3>;
+template class FlowJacobian<2>;
+template class FlowJacobian<3>;
+
+}  // namespace wingbeat

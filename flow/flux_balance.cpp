@@ -1,0 +1,211 @@
+#include "flow/flux_balance.hpp"
+
+#include <type_traits>
+
+#include "flow/boundary.hpp"
+#include "flow/cell_quantities.hpp"
+#include "flow/moved_face.hpp"
+
+namespace wingbeat {
+namespace {
+
+// The number type a sweep computes with: several doubles at a time, or one dual.
+template <class S>
+using Sweep = std::conditional_t<std::is_same_v<S, double>, Pack, S>;
+
+template <int Dim, class S>
+void sweep_radii(const BlockGeometry<Dim>& geometry, const RigidMotion<Sweep<S>>& motion, double gamma,
+                 BlockState<Dim, S>& state) {
+  using T = Sweep<S>;
+  const auto& layout = geometry.layout;
+  const Box<Dim> cells = grown(box_of<Dim>(layout.extents), 1);
+  for (std::ptrdiff_t o = layout.first(cells); o < layout.last(cells); o += lanes<T>) {
+    const auto faces = mean_faces<Dim, T>(geometry, motion, o);
+    const auto lambda = spectral_radii<Dim, T, T>(load_state<Dim, T>(state, o), Load<T>::from(state.p.data() + o),
+                                               faces.normals, faces.sweeps, gamma);
+    const auto radii = scaled_radii(lambda);
+    for (int d = 0; d < Dim; ++d) store(radii[d], state.radius[d].data() + o);
+  }
+}
+
+template <int Dim, class S>
+void sweep_sensor(const BlockLayout<Dim>& layout, int d, const JstCoefficients& jst, BlockState<Dim, S>& state) {
+  using T = Sweep<S>;
+  const std::ptrdiff_t step = layout.strides[d];
+  const Box<Dim> cells = grown(box_of<Dim>(layout.extents), 1);
+  const S* p = state.p.data();
+  for (std::ptrdiff_t o = layout.first(cells); o < layout.last(cells); o += lanes<T>)
+    store(pressure_sensor<T>(Load<T>::from(p + o - step), Load<T>::from(p + o), Load<T>::from(p + o + step), jst),
+          state.sensor.data() + o);
+}
+
+// Flux through every face of a direction, as if it were an interior one.
+template <int Dim, class S>
+void sweep_fluxes(const BlockGeometry<Dim>& geometry, const RigidMotion<Sweep<S>>& motion, int d,
+                  const JstCoefficients& jst, BlockState<Dim, S>& state) {
+  using T = Sweep<S>;
+  const auto& layout = geometry.layout;
+  const std::ptrdiff_t step = layout.strides[d];
+  Box<Dim> faces = box_of<Dim>(layout.extents);
+  ++faces.end[d];
+  for (std::ptrdiff_t o = layout.first(faces); o < layout.last(faces); o += lanes<T>) {
+    FaceStencil<Dim, T> cells;
+    for (int k = 0; k < 4; ++k) {
+      const std::ptrdiff_t cell = o + (k - 2) * step;
+      cells.w[k] = load_state<Dim, T>(state, cell);
+      cells.p[k] = Load<T>::from(state.p.data() + cell);
+    }
+    for (int k = 0; k < 2; ++k) cells.radius[k] = Load<T>::from(state.radius[d].data() + o + (k - 1) * step);
+    const auto face = moved_face<Dim, T>(geometry, motion, d, o);
+    const auto flux =
+        jst_flux<Dim, T, T>(cells, Load<T>::from(state.sensor.data() + o - step),
+                            Load<T>::from(state.sensor.data() + o), face.normal, face.sweep, jst);
+    for (int v = 0; v < state_size<Dim>; ++v) store(flux[v], state.flux[v].data() + o);
+  }
+}
+
+// Replaces the fluxes of the physical boundaries of a direction.
+template <int Dim, class S>
+void set_boundary_fluxes(const FlowBlock<Dim>& block, const RigidMotion<S>& motion, int d,
+                         const FlowModel<Dim, S>& model, BlockState<Dim, S>& state) {
+  const State<Dim, S> outside = model.freestream.state();
+  for (const BoundaryFace& boundary : block.boundary) {
+    if (boundary.direction != d) continue;
+    const auto face = moved_face<Dim, S>(block.geometry, motion, d, boundary.face);
+    const Vec<S, Dim> outward = boundary.outward * face.normal;
+    const S sweep = boundary.outward * face.sweep;
+    const S* p = state.p.data();
+    const State<Dim, S> flux =
+        boundary.type == BoundaryType::farfield
+            ? farfield_flux<Dim, S, S>(load_state<Dim, S>(state, boundary.first), outside, outward, sweep,
+                                       model.freestream.gamma)
+            : wall_flux<Dim, S, S>(wall_pressure<S>(p[boundary.first], p[boundary.second]), outward, sweep);
+    for (int v = 0; v < state_size<Dim>; ++v)
+      state.flux[v][static_cast<std::size_t>(boundary.face)] = boundary.outward * flux[v];
+  }
+}
+
+// Adds what leaves each cell in direction d to the balance.
+template <int Dim, class S>
+void add_differences(const FlowBlock<Dim>& block, int d, const BlockState<Dim, S>& state, std::span<S> balance) {
+  const auto& layout = block.geometry.layout;
+  const std::ptrdiff_t step = layout.strides[d];
+  constexpr int n = state_size<Dim>;
+  Box<Dim> rows = box_of<Dim>(layout.extents);
+  rows.end[0] = 1;
+  S* out = balance.data() + static_cast<std::size_t>(block.first_cell) * n;
+  for_each(rows, [&](const Index<Dim>& row) {
+    const std::ptrdiff_t o = layout.offset(row);
+    for (int v = 0; v < n; ++v) {
+      const S* low = state.flux[v].data() + o;
+      const S* high = low + step;
+      for (int i = 0; i < layout.extents[0]; ++i) out[i * n + v] += high[i] - low[i];
+    }
+    out += static_cast<std::ptrdiff_t>(layout.extents[0]) * n;
+  });
+}
+
+}  // namespace
+
+template <int Dim, class S>
+BlockState<Dim, S>::BlockState(const BlockLayout<Dim>& layout, const State<Dim, S>& fill) {
+  for (int v = 0; v < state_size<Dim>; ++v) {
+    w[v].assign(layout.size, fill[v]);
+    flux[v].assign(layout.size, S(0.0));
+  }
+  p.assign(layout.size, S(1.0));
+  sensor.assign(layout.size, S(0.0));
+  for (auto& values : radius) values.assign(layout.size, S(1.0));
+}
+
+template <int Dim, class S>
+void load_block(const FlowBlock<Dim>& block, int owned_count, std::span<const S> w, std::span<const S> ghosts,
+                double gamma, BlockState<Dim, S>& state) {
+  using T = Sweep<S>;
+  constexpr int n = state_size<Dim>;
+  const auto& layout = block.geometry.layout;
+  const S* in = w.data() + static_cast<std::size_t>(block.first_cell) * n;
+  Box<Dim> rows = box_of<Dim>(layout.extents);
+  rows.end[0] = 1;
+  for_each(rows, [&](const Index<Dim>& row) {
+    const std::ptrdiff_t o = layout.offset(row);
+    for (int v = 0; v < n; ++v) {
+      S* to = state.w[v].data() + o;
+      for (int i = 0; i < layout.extents[0]; ++i) to[i] = in[i * n + v];
+    }
+    in += static_cast<std::ptrdiff_t>(layout.extents[0]) * n;
+  });
+  for (const HaloCell& halo : block.halo) {
+    const S* from = halo.number < owned_count
+                        ? w.data() + static_cast<std::size_t>(halo.number) * n
+                        : ghosts.data() + static_cast<std::size_t>(halo.number - owned_count) * n;
+    for (int v = 0; v < n; ++v) state.w[v][static_cast<std::size_t>(halo.offset)] = from[v];
+  }
+
+  const Box<Dim> all = grown(box_of<Dim>(layout.extents), halo_layers);
+  for (std::ptrdiff_t o = layout.first(all); o < layout.last(all); o += lanes<T>)
+    store(pressure<Dim, T>(load_state<Dim, T>(state, o), gamma), state.p.data() + o);
+
+  for (const ExtrapolatedCell& cell : block.extrapolated) {
+    const auto extrapolate = [&](std::vector<S>& values) {
+      values[static_cast<std::size_t>(cell.offset)] =
+          2.0 * values[static_cast<std::size_t>(cell.first)] - values[static_cast<std::size_t>(cell.second)];
+    };
+    for (int v = 0; v < n; ++v) extrapolate(state.w[v]);
+    extrapolate(state.p);
+  }
+}
+
+template <int Dim, class S>
+FluxBalance<Dim, S>::FluxBalance(const FlowDomain<Dim>& domain, const FlowModel<Dim, S>& model)
+    : domain_(domain), model_(model) {
+  for (const auto& block : domain.blocks()) states_.emplace_back(block.geometry.layout, model.freestream.state());
+}
+
+template <int Dim, class S>
+void FluxBalance<Dim, S>::evaluate(std::span<const S> w, std::span<const S> ghosts, const RigidMotion<S>& motion,
+                                   std::span<S> balance) {
+  std::fill(balance.begin(), balance.end(), S(0.0));
+  const auto wide_motion = widen(motion);
+  for (std::size_t b = 0; b < states_.size(); ++b) {
+    const FlowBlock<Dim>& block = domain_.blocks()[b];
+    BlockState<Dim, S>& state = states_[b];
+    load_block<Dim, S>(block, domain_.owned_count(), w, ghosts, model_.freestream.gamma, state);
+    sweep_radii<Dim, S>(block.geometry, wide_motion, model_.freestream.gamma, state);
+    for (int d = 0; d < Dim; ++d) {
+      sweep_sensor<Dim, S>(block.geometry.layout, d, model_.jst, state);
+      sweep_fluxes<Dim, S>(block.geometry, wide_motion, d, model_.jst, state);
+      set_boundary_fluxes<Dim, S>(block, motion, d, model_, state);
+      add_differences<Dim, S>(block, d, state, balance);
+    }
+  }
+}
+
+template <int Dim>
+bool is_physical(std::span<const double> w, double gamma) {
+  constexpr int n = state_size<Dim>;
+  for (std::size_t c = 0; c < w.size(); c += n) {
+    State<Dim, double> cell;
+    for (int v = 0; v < n; ++v) cell[v] = w[c + static_cast<std::size_t>(v)];
+    if (!(cell[0] > 0.0 && pressure<Dim, double>(cell, gamma) > 0.0)) return false;
+  }
+  return true;
+}
+
+template bool is_physical<2>(std::span<const double>, double);
+template bool is_physical<3>(std::span<const double>, double);
+
+template struct BlockState<2, double>;
+template struct BlockState<3, double>;
+template void load_block<2, double>(const FlowBlock<2>&, int, std::span<const double>, std::span<const double>,
+                                    double, BlockState<2, double>&);
+template void load_block<3, double>(const FlowBlock<3>&, int, std::span<const double>, std::span<const double>,
+                                    double, BlockState<3, double>&);
+template class FluxBalance<2, double>;
+template class FluxBalance<3, double>;
+template class FluxBalance<2, Dual<double, 1>>;
+template class FluxBalance<3, Dual<double, 1>>;
+template class FluxBalance<2, Dual<double, 3>>;
+template class FluxBalance<3, Dual<double, 3>>;
+
+}  // namespace wingbeat

@@ -1,0 +1,143 @@
+#include "flow/pseudo_transient.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "flow/spectral_radius.hpp"
+
+namespace wingbeat {
+namespace {
+
+// dR/dw + diag(shift), shift a value a cell.
+template <int Dim>
+class ShiftedJacobian final : public LinearOperator<double> {
+ public:
+  ShiftedJacobian(const FlowEquations<Dim>& flow, std::span<const double> shift) : flow_(flow), shift_(shift) {}
+  std::size_t local_size() const override { return flow_.state_count(); }
+  void apply(std::span<const double> x, std::span<double> y) const override {
+    flow_.apply(x, y);
+    add_shift(x, y);
+  }
+  void apply_transpose(std::span<const double> x, std::span<double> y) const override {
+    flow_.apply_transpose(x, y);
+    add_shift(x, y);
+  }
+
+ private:
+  void add_shift(std::span<const double> x, std::span<double> y) const {
+    for (std::size_t i = 0; i < x.size(); ++i) y[i] += shift_[i / state_size<Dim>] * x[i];
+  }
+  const FlowEquations<Dim>& flow_;
+  std::span<const double> shift_;
+};
+
+// Largest step in (0, 1] that changes no density or pressure by more than the limit.
+template <int Dim>
+double limited_step(std::span<const double> w, std::span<const double> dw, double gamma, double limit) {
+  constexpr int n = state_size<Dim>;
+  double step = 1.0;
+  for (std::size_t c = 0; c < w.size(); c += n) {
+    State<Dim, Dual<double, 1>> cell;
+    for (int v = 0; v < n; ++v) {
+      cell[v] = w[c + static_cast<std::size_t>(v)];
+      cell[v].gradient[0] = dw[c + static_cast<std::size_t>(v)];
+    }
+    const auto p = pressure<Dim>(cell, gamma);
+    for (const auto& quantity : {cell[0], p}) {
+      const double change = std::abs(quantity.gradient[0]) / quantity.value;
+      if (change * step > limit) step = limit / change;
+    }
+  }
+  return step;
+}
+
+}  // namespace
+
+template <int Dim>
+PseudoTransientResult pseudo_transient(FlowEquations<Dim>& flow, const MotionState& motion,
+                                       SchwarzSolver<double>& solver, std::span<double> w,
+                                       const PseudoTransientOptions& options,
+                                       const PseudoTransientObserver& observer, std::span<const double> source) {
+  const Comm& comm = flow.domain().comm();
+  const double gamma = flow.model().freestream.gamma;
+  const std::span<const MotionState> motions(&motion, 1);
+  const double scale = flow.uniform_residual();
+  std::vector<double> r(w.size()), dw(w.size()), trial(w.size()), trial_r(w.size()), shift;
+
+  const auto residual = [&](std::span<const double> state, std::span<double> out) {
+    if (comm.any(!is_physical<Dim>(state, gamma))) return std::numeric_limits<double>::infinity();
+    flow.residual(state, motions, 0.0, out);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      if (!source.empty()) out[i] -= source[i];
+      sum += out[i] * out[i];
+    }
+    return std::sqrt(comm.sum(sum)) / scale;
+  };
+
+  PseudoTransientResult result;
+  result.residual = residual(w, r);
+  const double start = result.residual;
+  double cfl = options.cfl_initial;
+  bool refactor = true;
+  PseudoTransientIteration report{0, start, cfl, 0.0, 0, false};
+  while (true) {
+    if (observer && comm.any(!observer(report))) return result.status = SolveStatus::interrupted, result;
+    if (!std::isfinite(result.residual)) return result.status = SolveStatus::diverged, result;
+    if (result.residual <= options.tolerance) return result.status = SolveStatus::converged, result;
+    if (result.iterations == options.max_iterations) return result.status = SolveStatus::iteration_limit, result;
+
+    flow.linearize_state(w, motions, 0.0);
+    shift = spectral_radius_sums<Dim>(flow.domain(), w, motion, gamma);
+    for (double& value : shift) value /= cfl;
+    if (refactor || !solver.is_factored()) {
+      solver.template factor<state_size<Dim>>(flow.jacobians()[0], shift);
+      ++result.factorizations;
+      refactor = false;
+      report.refactored = true;
+    } else {
+      report.refactored = false;
+    }
+    for (double& value : r) value = -value;
+    std::fill(dw.begin(), dw.end(), 0.0);
+    GmresOptions gmres_options = options.gmres;
+    gmres_options.relative_tolerance = options.forcing;
+    const GmresResult linear =
+        gmres<double>(comm, ShiftedJacobian<Dim>(flow, shift), solver, r, dw, gmres_options);
+    result.linear_iterations += linear.iterations;
+    report.linear_iterations = linear.iterations;
+    refactor = linear.iterations > options.refactor_iterations || linear.status != GmresStatus::converged;
+
+    double step = comm.min(limited_step<Dim>(w, dw, gamma, options.step_limit));
+    double trial_residual = 0.0;
+    // The residual may rise on the way, but not by much.
+    for (int attempt = 0; attempt < 6; ++attempt, step *= 0.5) {
+      for (std::size_t i = 0; i < w.size(); ++i) trial[i] = w[i] + step * dw[i];
+      trial_residual = residual(trial, trial_r);
+      if (trial_residual <= 1.5 * result.residual) break;
+    }
+    ++result.iterations;
+    if (trial_residual <= 1.5 * result.residual) {
+      std::copy(trial.begin(), trial.end(), w.begin());
+      r.swap(trial_r);
+      result.residual = trial_residual;
+      const double target = options.cfl_initial * std::pow(start / result.residual, options.cfl_growth);
+      cfl = step < 0.5 ? std::max(cfl * step, 1.0) : std::min(target, cfl * 10.0);
+    } else {
+      for (double& value : r) value = -value;
+      cfl *= 0.1;
+      refactor = true;
+      if (cfl < 1e-3) return result.status = SolveStatus::stalled, result;
+    }
+    report = {result.iterations, result.residual, cfl, step, linear.iterations, report.refactored};
+  }
+}
+
+template PseudoTransientResult pseudo_transient<2>(FlowEquations<2>&, const MotionState&, SchwarzSolver<double>&,
+                                                   std::span<double>, const PseudoTransientOptions&,
+                                                   const PseudoTransientObserver&, std::span<const double>);
+template PseudoTransientResult pseudo_transient<3>(FlowEquations<3>&, const MotionState&, SchwarzSolver<double>&,
+                                                   std::span<double>, const PseudoTransientOptions&,
+                                                   const PseudoTransientObserver&, std::span<const double>);
+
+}  // namespace wingbeat

@@ -1,0 +1,119 @@
+#include "partition/partition.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <tuple>
+
+#include "core/io/error.hpp"
+#include "partition/block_graph.hpp"
+#include "partition/recursive_bisection.hpp"
+#include "partition/split_blocks.hpp"
+
+namespace wingbeat {
+namespace {
+
+void check_request(std::size_t cells, int ranks, const PartitionOptions& options) {
+  if (ranks < 1) throw InputError("partition: " + std::to_string(ranks) + " ranks, at least 1 is needed");
+  if (static_cast<std::size_t>(ranks) > cells)
+    throw InputError("partition: " + std::to_string(ranks) + " ranks for a mesh of " + std::to_string(cells) +
+                     " cells, each rank needs at least one; use at most " + std::to_string(cells) +
+                     " ranks or refine the mesh");
+  if (!(options.imbalance >= 0.0))
+    throw InputError("partition: an imbalance of " + std::to_string(options.imbalance) +
+                     ", allowed is 0 or more (0.05 lets the heaviest rank hold 5 % more than the mean)");
+  // METIS adds up weights in 32 bits.
+  if (cells > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+    throw InputError("partition: a mesh of " + std::to_string(cells) + " cells, at most " +
+                     std::to_string(std::numeric_limits<int>::max()) + " are supported");
+}
+
+// Cells that the heaviest rank may hold: the imbalance asked for, or the best that whole cells allow.
+std::size_t largest_share(std::size_t cells, int ranks, double imbalance) {
+  const std::size_t n = static_cast<std::size_t>(ranks);
+  const double allowed = (1.0 + imbalance) * static_cast<double>(cells) / static_cast<double>(ranks);
+  const std::size_t least = (cells + n - 1) / n;
+  return std::max(least, static_cast<std::size_t>(std::min(allowed, static_cast<double>(cells))));
+}
+
+// A division and what it costs: fewer faces cut first, then fewer blocks.
+template <int Dim>
+struct Candidate {
+  std::vector<SubBlock<Dim>> blocks;
+  std::size_t edge_cut = 0;
+
+  auto cost() const { return std::tuple(edge_cut, blocks.size()); }
+};
+
+// Equal pieces of the zones, about `pieces_per_rank` for each rank.
+template <int Dim>
+std::vector<SubBlock<Dim>> split_zones(const MultiblockMesh<Dim>& mesh, int ranks, int pieces_per_rank) {
+  const double piece =
+      static_cast<double>(mesh.cell_count()) / (static_cast<double>(ranks) * pieces_per_rank);
+  std::vector<SubBlock<Dim>> blocks;
+  for (std::size_t z = 0; z < mesh.zones.size(); ++z) {
+    const Box<Dim> zone = box_of<Dim>(mesh.zones[z].cells);
+    const int pieces = static_cast<int>(std::ceil(static_cast<double>(zone.size()) / piece));
+    for (const Box<Dim>& box : split_box(zone, pieces)) blocks.push_back({static_cast<int>(z), box, 0});
+  }
+  return blocks;
+}
+
+template <int Dim>
+Candidate<Dim> by_recursive_bisection(const MultiblockMesh<Dim>& mesh, int ranks, std::size_t limit) {
+  std::vector<SubBlock<Dim>> blocks = merge_blocks(bisect_recursively(mesh, ranks, limit));
+  std::vector<int> rank_of(blocks.size());
+  std::ranges::transform(blocks, rank_of.begin(), &SubBlock<Dim>::rank);
+  const std::size_t cut = edge_cut(build_block_graph<Dim>(mesh, blocks), rank_of);
+  return {std::move(blocks), cut};
+}
+
+// Nothing when METIS leaves a rank empty or gives one more than the limit.
+template <int Dim>
+std::optional<Candidate<Dim>> by_metis(const MultiblockMesh<Dim>& mesh, int ranks, std::size_t limit,
+                                       int pieces_per_rank, double imbalance) {
+  std::vector<SubBlock<Dim>> blocks = split_zones(mesh, ranks, pieces_per_rank);
+  if (blocks.size() < static_cast<std::size_t>(ranks)) return std::nullopt;
+  const BlockGraph graph = build_block_graph<Dim>(mesh, blocks);
+  const std::vector<int> rank_of = divide_graph(graph, ranks, imbalance);
+  std::vector<std::size_t> cells(ranks, 0);
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    blocks[b].rank = rank_of[b];
+    cells[rank_of[b]] += blocks[b].cells.size();
+  }
+  const auto [least, most] = std::ranges::minmax(cells);
+  if (least == 0 || most > limit) return std::nullopt;
+  return Candidate<Dim>{merge_blocks(std::move(blocks)), edge_cut(graph, rank_of)};
+}
+
+}  // namespace
+
+template <int Dim>
+Partition<Dim> partition_mesh(const MultiblockMesh<Dim>& mesh, int ranks, const PartitionOptions& options) {
+  const std::size_t cells = mesh.cell_count();
+  check_request(cells, ranks, options);
+  Partition<Dim> partition{ranks, {}};
+  if (ranks == 1) {
+    for (std::size_t z = 0; z < mesh.zones.size(); ++z)
+      partition.blocks.push_back({static_cast<int>(z), box_of<Dim>(mesh.zones[z].cells), 0});
+    return partition;
+  }
+  const std::size_t limit = largest_share(cells, ranks, options.imbalance);
+  Candidate<Dim> best = by_recursive_bisection(mesh, ranks, limit);
+  // The coarsest splitting with which METIS keeps the balance gives the fewest blocks.
+  for (const int pieces_per_rank : {2, 4, 8, 16}) {
+    std::optional<Candidate<Dim>> found = by_metis(mesh, ranks, limit, pieces_per_rank, options.imbalance);
+    if (!found) continue;
+    if (found->cost() < best.cost()) best = std::move(*found);
+    break;
+  }
+  partition.blocks = std::move(best.blocks);
+  return partition;
+}
+
+template Partition<2> partition_mesh<2>(const MultiblockMesh<2>&, int, const PartitionOptions&);
+template Partition<3> partition_mesh<3>(const MultiblockMesh<3>&, int, const PartitionOptions&);
+
+}  // namespace wingbeat

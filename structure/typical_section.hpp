@@ -1,0 +1,31 @@
+#pragma once
+
+#include "structure/structure_model.hpp"
+
+namespace wingbeat {
+
+// Two-degree-of-freedom section on springs: plunge h/b, positive down, and pitch alpha, positive
+// nose-up, both at the elastic axis. Lengths in semichords b, time in 1/omega_alpha.
+struct TypicalSection {
+  double elastic_axis = 0.0;             // a, aft of mid-chord
+  double static_unbalance = 0.0;         // x_alpha, centre of gravity aft of the elastic axis
+  double gyration_radius_squared = 0.0;  // r_alpha^2, about the elastic axis
+  double frequency_ratio = 0.0;          // omega_h/omega_alpha
+  double mass_ratio = 0.0;               // mu = m/(pi rho b^2)
+};
+
+inline constexpr int plunge = 0;
+inline constexpr int pitch = 1;
+
+// Elastic axis in chords from the leading edge, x_ea = (1 + a)/2.
+double elastic_axis_in_chords(const TypicalSection& section);
+
+// M = [1 x_a; x_a r_a^2], K = diag((omega_h/omega_alpha)^2, r_a^2), no damping, c = 4/(pi mu), for
+// forces f = (-C_l, 2 C_m) with C_m about the elastic axis; the phase mode is pitch
+// (eq:typical-section). Throws InputError where a value has no physical meaning.
+StructureModel structure_model(const TypicalSection& section);
+
+// Flutter speed index V* = 2 V/sqrt(mu) = U/(b omega_alpha sqrt(mu)).
+double speed_index(const TypicalSection& section, double reduced_velocity);
+
+}  // namespace wingbeat
