@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 
 #include "apps/verbs.hpp"
 #include "apps/version.hpp"
@@ -34,6 +35,13 @@ void check_verb(const std::vector<std::string>& arguments) {
                                nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest), list));
 }
 
+// CLI11's own validator spells out the largest double.
+std::string check_seconds(const std::string& text) {
+  double seconds = 0.0;
+  const bool is_number = CLI::detail::lexical_cast(text, seconds);
+  return is_number && std::isfinite(seconds) && seconds > 0.0 ? "" : text + " is not a number of seconds > 0";
+}
+
 void add_case_verb(CLI::App& app, const Verb& verb, CommandLine& line) {
   CLI::App* command = app.add_subcommand(verb.name, verb.help);
   command->add_option("case", line.target, "case file")->required()->option_text("case.toml");
@@ -44,7 +52,7 @@ void add_case_verb(CLI::App& app, const Verb& verb, CommandLine& line) {
   command->add_option("--restart", line.restart, "solution to start from")->option_text("FILE");
   command->add_option("--walltime", line.walltime, "stop after a checkpoint when this time is used up")
       ->option_text("SECONDS")
-      ->check(CLI::PositiveNumber);
+      ->check(check_seconds, "");
   command->add_flag("--dry-run", line.dry_run,
                     "print the resolved case and what it asks for; compute nothing");
   if (verb.name == "partition")

@@ -7,49 +7,66 @@
 namespace wingbeat {
 namespace {
 
-// A face's flux as a function of what it reads: the four states, their pressures and the two
-// radii, all independent. Chaining with the cell derivatives comes after: a cell beyond a
-// physical boundary is extrapolated in state and pressure separately.
+// Derivatives of a flux with respect to what it reads, all taken as independent: chaining with
+// the cell derivatives comes after, since a cell beyond a physical boundary is extrapolated in
+// state and pressure separately. Innermost index: consecutive faces, a lane each.
 template <int Dim>
-struct FaceSeeds {
+struct FaceGradients {
   static constexpr int n = state_size<Dim>;
-  static constexpr int state(int k, int v) { return k * n + v; }
-  static constexpr int pressure(int k) { return 4 * n + k; }
-  static constexpr int radius(int k) { return 4 * n + 4 + k; }
-  static constexpr int count = 4 * n + 6;
-};
+  using Lane = std::array<double, lanes<Pack>>;
 
-// Gradients of the flux of several consecutive faces: [flux row][seed][lane].
-template <int Dim>
-using FaceGradients =
-    std::array<std::array<std::array<double, lanes<Pack>>, FaceSeeds<Dim>::count>, state_size<Dim>>;
+  std::array<std::array<std::array<Lane, n>, n>, 2> convection;  // [cell 1 or 2][row][state variable]
+  std::array<Lane, 4> diffusion;                                 // [cell]: of row v by variable v
+  std::array<std::array<Lane, n>, 4> pressure;                   // [cell][row]
+  std::array<std::array<Lane, n>, 2> radius;                     // [cell 1 or 2][row]
+};
 
 template <int Dim>
 void differentiate_faces(const BlockGeometry<Dim>& geometry, const BlockState<Dim, double>& state,
                          const RigidMotion<Pack>& motion, int d, std::ptrdiff_t o, const JstCoefficients& jst,
                          FaceGradients<Dim>& gradients) {
-  using Seeds = FaceSeeds<Dim>;
-  using D = Dual<Pack, Seeds::count>;
+  constexpr int n = state_size<Dim>;
   const std::ptrdiff_t step = geometry.layout.strides[d];
-  FaceStencil<Dim, D> cells;
+  const auto face = moved_face<Dim, Pack>(geometry, motion, d, o);
+
+  // Dissipation: seeds 0..3 on the pressures, 4 and 5 on the radii; linear in the states.
+  using D = Dual<Pack, 6>;
+  FaceStencil<Dim, Pack, D> cells;
   for (int k = 0; k < 4; ++k) {
     const std::ptrdiff_t cell = o + (k - 2) * step;
-    for (int v = 0; v < state_size<Dim>; ++v)
-      cells.w[k][v] = D::seed(Load<Pack>::from(state.w[v].data() + cell), Seeds::state(k, v));
-    cells.p[k] = D::seed(Load<Pack>::from(state.p.data() + cell), Seeds::pressure(k));
+    cells.w[k] = load_state<Dim, Pack>(state, cell);
+    cells.p[k] = D::seed(Load<Pack>::from(state.p.data() + cell), k);
   }
   for (int k = 0; k < 2; ++k)
-    cells.radius[k] = D::seed(Load<Pack>::from(state.radius[d].data() + o + (k - 1) * step), Seeds::radius(k));
-  const D sensor_left = pressure_sensor<D>(cells.p[0], cells.p[1], cells.p[2], jst);
-  const D sensor_right = pressure_sensor<D>(cells.p[1], cells.p[2], cells.p[3], jst);
-  const auto face = moved_face<Dim, Pack>(geometry, motion, d, o);
-  const auto flux = jst_flux<Dim, D, Pack>(cells, sensor_left, sensor_right, face.normal, face.sweep, jst);
-  for (int row = 0; row < state_size<Dim>; ++row)
-    for (int s = 0; s < Seeds::count; ++s) store(flux[row].gradient[s], gradients[row][s].data());
+    cells.radius[k] = D::seed(Load<Pack>::from(state.radius[d].data() + o + (k - 1) * step), 4 + k);
+  const auto weights = jst_weights(pressure_sensor(cells.p[0], cells.p[1], cells.p[2], jst),
+                                   pressure_sensor(cells.p[1], cells.p[2], cells.p[3], jst), cells.radius, jst);
+  const auto dissipation = jst_dissipation<Dim>(cells, weights);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Pack weight = first_difference[k] * weights.second.value - third_difference[k] * weights.fourth.value;
+    store(-weight, gradients.diffusion[k].data());
+    for (int row = 0; row < n; ++row)
+      store(-dissipation[row].gradient[static_cast<int>(k)], gradients.pressure[k][row].data());
+  }
+
+  // Convection: half of each side's flux, a function of that side's state and pressure.
+  using C = Dual<Pack, n + 1>;
+  for (std::size_t side = 0; side < 2; ++side) {
+    State<Dim, C> w;
+    for (int v = 0; v < n; ++v) w[v] = C::seed(cells.w[1 + static_cast<int>(side)][v], v);
+    const C p = C::seed(cells.p[1 + static_cast<int>(side)].value, n);
+    const auto flux = euler_flux<Dim>(w, p, face.normal, face.sweep);
+    for (int row = 0; row < n; ++row) {
+      for (int v = 0; v < n; ++v)
+        store(0.5 * flux[row].gradient[v], gradients.convection[side][row][v].data());
+      auto& by_pressure = gradients.pressure[1 + side][row];
+      store(Load<Pack>::from(by_pressure.data()) + 0.5 * flux[row].gradient[n], by_pressure.data());
+      store(-dissipation[row].gradient[4 + static_cast<int>(side)], gradients.radius[side][row].data());
+    }
+  }
 }
 
-// Adds one face's derivatives with respect to stencil cell k, carried by the state and pressure of
-// the cell at `source` with the given weight, to the rows of the two cells beside the face.
+// Adds the derivatives of one face's flux to the rows of the two cells beside it.
 template <int Dim>
 struct FaceScatter {
   static constexpr int n = state_size<Dim>;
@@ -61,30 +78,35 @@ struct FaceScatter {
   std::ptrdiff_t step;   // stride of direction d
   std::size_t lane;
 
-  std::ptrdiff_t cell(int k) const { return face + (k - 2) * step; }
+  std::ptrdiff_t cell(std::size_t k) const { return face + (static_cast<std::ptrdiff_t>(k) - 2) * step; }
 
   // k: what the flux reads; source: the stencil cell whose state that is, times weight.
-  void add(int k, int source, double weight) const {
-    using Seeds = FaceSeeds<Dim>;
+  void add(std::size_t k, std::size_t source, double weight) const {
     const auto at = static_cast<std::size_t>(cell(source));
     std::array<double, n * n> block;
-    for (int row = 0; row < n; ++row) {
-      const auto& g = gradients[row];
-      const double by_pressure = g[Seeds::pressure(k)][lane];
-      for (int v = 0; v < n; ++v)
-        block[row * n + v] = weight * (g[Seeds::state(k, v)][lane] + by_pressure * cells.pressure[v][at]);
-      if (k == source && (k == 1 || k == 2)) {
-        const double by_radius = g[Seeds::radius(k - 1)][lane];
-        for (int v = 0; v < n; ++v) block[row * n + v] += by_radius * cells.radius[d][v][at];
-      }
+    for (std::size_t row = 0; row < n; ++row) {
+      const double by_pressure = weight * gradients.pressure[k][row][lane];
+      for (std::size_t v = 0; v < n; ++v) block[row * n + v] = by_pressure * cells.pressure[v][at];
+      block[row * n + row] += weight * gradients.diffusion[k][lane];
     }
+    if (k == source && (k == 1 || k == 2)) add_own_terms(k - 1, at, block);
     add_to_row(1, source, +1.0, block);
     add_to_row(2, source, -1.0, block);
   }
 
+  // What only the two cells beside the face have: their flux and their spectral radius.
+  void add_own_terms(std::size_t side, std::size_t at, std::array<double, n * n>& block) const {
+    for (std::size_t row = 0; row < n; ++row) {
+      const double by_radius = gradients.radius[side][row][lane];
+      for (std::size_t v = 0; v < n; ++v)
+        block[row * n + v] += gradients.convection[side][row][v][lane] + by_radius * cells.radius[d][v][at];
+    }
+  }
+
   // The flux leaves cell 1 and enters cell 2.
-  void add_to_row(int row_cell, int column_cell, double sign, const std::array<double, n * n>& block) const {
-    const int slot = CellDerivatives<Dim>::slot(d, column_cell - row_cell);
+  void add_to_row(std::size_t row_cell, std::size_t column_cell, double sign,
+                  const std::array<double, n * n>& block) const {
+    const int slot = CellDerivatives<Dim>::slot(d, static_cast<int>(column_cell) - static_cast<int>(row_cell));
     const int position = cells.positions[slot][static_cast<std::size_t>(cell(row_cell))];
     if (position < 0) return;
     auto values = matrix.block(static_cast<std::size_t>(position));

@@ -42,7 +42,7 @@ State<Dim, T> conservative(const T& density, const Vec<T, Dim>& u, const T& p, d
 //   F = w (u . n - sweep) + (0, p n, p u . n)  (eq:euler-ale)
 // The number type G of the geometry may be simpler than the state's: constants carry no gradient.
 template <int Dim, class T, class G>
-State<Dim, T> euler_flux(const State<Dim, T>& w, const T& p, const Vec<G, Dim>& normal, const G& sweep) {
+State<Dim, T> euler_flux(const Vec<T, Dim + 2>& w, const T& p, const Vec<G, Dim>& normal, const G& sweep) {
   const T through = dot(velocity<Dim>(w), normal);
   State<Dim, T> flux = (through - sweep) * w;
   for (int d = 0; d < Dim; ++d) flux[1 + d] += p * normal[d];

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "flow/spectral_radius.hpp"
+#include "flow/step_limit.hpp"
 
 namespace wingbeat {
 namespace {
@@ -30,26 +31,6 @@ class ShiftedJacobian final : public LinearOperator<double> {
   const FlowEquations<Dim>& flow_;
   std::span<const double> shift_;
 };
-
-// Largest step in (0, 1] that changes no density or pressure by more than the limit.
-template <int Dim>
-double limited_step(std::span<const double> w, std::span<const double> dw, double gamma, double limit) {
-  constexpr int n = state_size<Dim>;
-  double step = 1.0;
-  for (std::size_t c = 0; c < w.size(); c += n) {
-    State<Dim, Dual<double, 1>> cell;
-    for (int v = 0; v < n; ++v) {
-      cell[v] = w[c + static_cast<std::size_t>(v)];
-      cell[v].gradient[0] = dw[c + static_cast<std::size_t>(v)];
-    }
-    const auto p = pressure<Dim>(cell, gamma);
-    for (const auto& quantity : {cell[0], p}) {
-      const double change = std::abs(quantity.gradient[0]) / quantity.value;
-      if (change * step > limit) step = limit / change;
-    }
-  }
-  return step;
-}
 
 }  // namespace
 
@@ -108,7 +89,7 @@ PseudoTransientResult pseudo_transient(FlowEquations<Dim>& flow, const MotionSta
     report.linear_iterations = linear.iterations;
     refactor = linear.iterations > options.refactor_iterations || linear.status != GmresStatus::converged;
 
-    double step = comm.min(limited_step<Dim>(w, dw, gamma, options.step_limit));
+    double step = comm.min(largest_step<Dim>(w, dw, gamma, options.step_limit));
     double trial_residual = 0.0;
     // The residual may rise on the way, but not by much.
     for (int attempt = 0; attempt < 6; ++attempt, step *= 0.5) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <string>
 #include <tuple>
 
@@ -14,6 +13,9 @@
 
 namespace wingbeat {
 namespace {
+
+// Pieces of fewer cells are not offered to METIS: too many, too thin.
+constexpr std::size_t least_piece = 4;
 
 void check_request(std::size_t cells, int ranks, const PartitionOptions& options) {
   if (ranks < 1) throw InputError("partition: " + std::to_string(ranks) + " ranks, at least 1 is needed");
@@ -70,22 +72,22 @@ Candidate<Dim> by_recursive_bisection(const MultiblockMesh<Dim>& mesh, int ranks
   return {std::move(blocks), cut};
 }
 
-// Nothing when METIS leaves a rank empty or gives one more than the limit.
 template <int Dim>
-std::optional<Candidate<Dim>> by_metis(const MultiblockMesh<Dim>& mesh, int ranks, std::size_t limit,
-                                       int pieces_per_rank, double imbalance) {
+Candidate<Dim> by_metis(const MultiblockMesh<Dim>& mesh, int ranks, int pieces_per_rank, double imbalance) {
   std::vector<SubBlock<Dim>> blocks = split_zones(mesh, ranks, pieces_per_rank);
-  if (blocks.size() < static_cast<std::size_t>(ranks)) return std::nullopt;
   const BlockGraph graph = build_block_graph<Dim>(mesh, blocks);
   const std::vector<int> rank_of = divide_graph(graph, ranks, imbalance);
+  for (std::size_t b = 0; b < blocks.size(); ++b) blocks[b].rank = rank_of[b];
+  return {merge_blocks(std::move(blocks)), edge_cut(graph, rank_of)};
+}
+
+// Every rank has cells and none more than the limit.
+template <int Dim>
+bool is_balanced(const std::vector<SubBlock<Dim>>& blocks, int ranks, std::size_t limit) {
   std::vector<std::size_t> cells(ranks, 0);
-  for (std::size_t b = 0; b < blocks.size(); ++b) {
-    blocks[b].rank = rank_of[b];
-    cells[rank_of[b]] += blocks[b].cells.size();
-  }
+  for (const SubBlock<Dim>& block : blocks) cells[block.rank] += block.cells.size();
   const auto [least, most] = std::ranges::minmax(cells);
-  if (least == 0 || most > limit) return std::nullopt;
-  return Candidate<Dim>{merge_blocks(std::move(blocks)), edge_cut(graph, rank_of)};
+  return least > 0 && most <= limit;
 }
 
 }  // namespace
@@ -102,12 +104,14 @@ Partition<Dim> partition_mesh(const MultiblockMesh<Dim>& mesh, int ranks, const 
   }
   const std::size_t limit = largest_share(cells, ranks, options.imbalance);
   Candidate<Dim> best = by_recursive_bisection(mesh, ranks, limit);
-  // The coarsest splitting with which METIS keeps the balance gives the fewest blocks.
+  // The coarsest splitting with which METIS keeps the balance gives the fewest blocks. Out of
+  // balance and yet cutting more than the bisection, it would not improve with finer pieces.
   for (const int pieces_per_rank : {2, 4, 8, 16}) {
-    std::optional<Candidate<Dim>> found = by_metis(mesh, ranks, limit, pieces_per_rank, options.imbalance);
-    if (!found) continue;
-    if (found->cost() < best.cost()) best = std::move(*found);
-    break;
+    if (static_cast<std::size_t>(ranks) * pieces_per_rank * least_piece > cells) break;
+    Candidate<Dim> found = by_metis(mesh, ranks, pieces_per_rank, options.imbalance);
+    const bool balanced = is_balanced(found.blocks, ranks, limit);
+    if (balanced && found.cost() < best.cost()) best = std::move(found);
+    if (balanced || found.edge_cut > best.edge_cut) break;
   }
   partition.blocks = std::move(best.blocks);
   return partition;

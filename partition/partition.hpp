@@ -35,8 +35,11 @@ struct PartitionStatistics {
   std::size_t halo_bytes = 0;  // bytes of one exchange of the state of all instances
 };
 
-// Splits the zones, weighs sub-blocks by cells x instances and divides the graph of sub-blocks,
-// its edges weighted by shared faces, by METIS k-way. Deterministic.
+// Splits the zones, weighs sub-blocks by cells (all instances of a cell live on one rank) and
+// divides the graph of sub-blocks, its edges weighted by shared faces, by METIS k-way; recursive
+// bisection takes its place where it cuts no more faces or METIS misses the allowed imbalance.
+// No rank exceeds that imbalance by more than whole cells force it to. One rank keeps the zones
+// whole. Deterministic; time grows about as ranks do.
 // Throws InputError when there are more ranks than cells.
 template <int Dim>
 Partition<Dim> partition_mesh(const MultiblockMesh<Dim>& mesh, int ranks, const PartitionOptions& options);

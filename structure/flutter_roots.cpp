@@ -43,8 +43,13 @@ Complex between(const Station& a, const Station& b, std::size_t i, double t) {
          h * s * t * (s * a.slope[i] - t * b.slope[i]);
 }
 
+// A mode without aerodynamic damping stays on the axis but for round-off: that is no crossing.
+constexpr double neutral = 1e-11;
+
 bool may_flutter(const Station& a, const Station& b, std::size_t i) {
-  return a.lambda[i].real() > 0.0 && b.lambda[i].real() > 0.0;
+  const bool is_neutral = std::abs(a.lambda[i].imag()) <= neutral * std::abs(a.lambda[i]) &&
+                          std::abs(b.lambda[i].imag()) <= neutral * std::abs(b.lambda[i]);
+  return a.lambda[i].real() > 0.0 && b.lambda[i].real() > 0.0 && !is_neutral;
 }
 
 bool crosses(const Station& a, const Station& b, std::size_t i) {
@@ -156,6 +161,15 @@ std::optional<std::pair<double, Complex>> root_of_model(const StructureModel& mo
   return std::nullopt;
 }
 
+// The root at k with Q = table + correction.
+FlutterRoot root_with(const StructureModel& model, const AerodynamicTable& table,
+                      const Correction& correction, double k, Complex lambda) {
+  const auto [value, slope] = correction(k);
+  const Eigen::MatrixXcd q = table(k) + value;
+  const VelocityEigenvalues eigen = velocity_eigenvalues(model, k, q);
+  return root_of(model, k, q, table.derivative(k) + slope, eigen, nearest(eigen, lambda));
+}
+
 void sort_by_velocity(std::vector<FlutterRoot>& roots) {
   std::stable_sort(roots.begin(), roots.end(), [](const FlutterRoot& a, const FlutterRoot& b) {
     return a.reduced_velocity < b.reduced_velocity;
@@ -208,18 +222,27 @@ FlutterRoot polish_flutter_root(const StructureModel& model, const AerodynamicMa
   Correction correction;
   double k = start.reduced_frequency;
   Complex lambda = 1.0 / start.reduced_velocity;
+  double previous = 1.0;
   FlutterRoot root;
   for (int evaluation = 1; evaluation <= options.max_evaluations; ++evaluation) {
-    const Eigen::MatrixXcd q = exact(k);
-    correction.add(k, q - table(k));
-    const VelocityEigenvalues eigen = velocity_eigenvalues(model, k, q);
-    root = root_of(model, k, q, table.derivative(k) + correction(k).second, eigen, nearest(eigen, lambda));
+    correction.add(k, exact(k) - table(k));
+    root = root_with(model, table, correction, k, lambda);
     root.evaluations = evaluation;
-    root.is_converged = root.residual <= options.tolerance && root.reduced_velocity > 0.0;
+    root.is_converged = root.residual <= options.tolerance;
     if (root.is_converged) break;
     const auto next = root_of_model(model, table, correction, k, lambda);
     if (!next || next->first == k) break;
     std::tie(k, lambda) = *next;
+    // The interpolation gains at least the last reduction again: no evaluation is spent on proving it.
+    const double expected = root.residual * (root.residual / previous);
+    if (evaluation > 1 && expected <= options.tolerance) {
+      root = root_with(model, table, correction, k, lambda);
+      root.evaluations = evaluation;
+      root.residual = expected;
+      root.is_converged = true;
+      break;
+    }
+    previous = root.residual;
   }
   return root;
 }

@@ -28,12 +28,13 @@ class PkEquation {
 
   bool covers(double k) const { return k >= k_min_ && k <= k_max_; }
 
-  // The m free vibrations, p = i omega, by frequency; damping included.
+  // The m free vibrations by frequency; their k = omega/(2V) is beyond every table.
   std::vector<PkPoint> at_rest() const {
     const int m = model_.size();
     const Spectrum spectrum = solve(Eigen::MatrixXcd::Zero(m, m));
     std::vector<PkPoint> points;
-    for (int j = 0; j < 2 * m; ++j) points.push_back({0.0, spectrum.p[j], spectrum.modes.col(j), {}});
+    for (int j = 0; j < 2 * m; ++j)
+      points.push_back({0.0, spectrum.p[j], spectrum.modes.col(j), PkStatus::outside_table});
     std::stable_sort(points.begin(), points.end(),
                      [](const PkPoint& a, const PkPoint& b) { return a.p.imag() < b.p.imag(); });
     points.erase(points.begin(), points.begin() + m);
@@ -123,7 +124,13 @@ Station advance(const PkEquation& equation, const Station& here, double target) 
   }
 }
 
-bool is_inside(const PkPoint& point) { return point.status == PkStatus::converged; }
+// A mode without aerodynamic damping has Re p = 0 but for round-off: that is no crossing.
+bool is_neutral(const PkPoint& point) { return std::abs(point.p.real()) <= 1e-11 * std::abs(point.p); }
+
+bool crosses(const PkPoint& a, const PkPoint& b) {
+  return a.status == PkStatus::converged && b.status == PkStatus::converged &&
+         a.p.real() * b.p.real() < 0.0 && !(is_neutral(a) && is_neutral(b));
+}
 
 // Re p = 0 on branch i between two stations, by regula falsi with the Illinois rule.
 PkCrossing locate(const PkEquation& equation, const Station& a, const Station& b, std::size_t i,
@@ -148,7 +155,8 @@ PkCrossing locate(const PkEquation& equation, const Station& a, const Station& b
   return {static_cast<int>(i), high, rises};
 }
 
-void check(const StructureModel& model, double k_min, double k_max, std::span<const double> velocities) {
+void check_request(const StructureModel& model, double k_min, double k_max,
+                   std::span<const double> velocities) {
   check(model);
   if (!(k_min >= 0.0) || !(k_max > k_min))
     throw InputError(
@@ -179,7 +187,7 @@ std::string_view to_string(PkStatus status) {
 
 PkResult pk(const StructureModel& model, const AerodynamicMatrix& q, double k_min, double k_max,
             std::span<const double> reduced_velocities, const PkOptions& options) {
-  check(model, k_min, k_max, reduced_velocities);
+  check_request(model, k_min, k_max, reduced_velocities);
   const PkEquation equation(model, q, k_min, k_max, options);
   Station here{0.0, equation.at_rest(), std::vector<Complex>(static_cast<std::size_t>(model.size()))};
   PkResult result;
@@ -188,8 +196,7 @@ PkResult pk(const StructureModel& model, const AerodynamicMatrix& q, double k_mi
     while (here.velocity < velocity) {
       Station next = advance(equation, here, velocity);
       for (std::size_t i = 0; i < next.points.size(); ++i)
-        if (is_inside(here.points[i]) && is_inside(next.points[i]) &&
-            here.points[i].p.real() * next.points[i].p.real() < 0.0)
+        if (crosses(here.points[i], next.points[i]))
           result.crossings.push_back(locate(equation, here, next, i, options));
       here = std::move(next);
     }

@@ -22,6 +22,9 @@ void check(const TypicalSection& section) {
   require_positive(section.mass_ratio, "mass_ratio");
   if (!std::isfinite(section.elastic_axis))
     throw InputError(fmt::format("structure.elastic_axis = {}: must be a number", section.elastic_axis));
+  for (const double ratio : section.damping)
+    if (!(ratio >= 0.0) || !std::isfinite(ratio))
+      throw InputError(fmt::format("structure.damping = {}: must be a number >= 0", ratio));
   // About the centre of gravity the squared radius is r_alpha^2 - x_alpha^2.
   const double unbalance = section.static_unbalance;
   if (!(unbalance * unbalance < section.gyration_radius_squared))
@@ -41,10 +44,10 @@ StructureModel structure_model(const TypicalSection& section) {
   model.modes = {"plunge", "pitch"};
   model.mass.resize(2, 2);
   model.mass << 1.0, section.static_unbalance, section.static_unbalance, section.gyration_radius_squared;
-  model.damping = Eigen::MatrixXd::Zero(2, 2);
   model.stiffness =
       Eigen::Vector2d(section.frequency_ratio * section.frequency_ratio, section.gyration_radius_squared)
           .asDiagonal();
+  model.damping = modal_damping(model, Eigen::Vector2d(section.damping[0], section.damping[1]));
   model.load_factor = 4.0 / (std::numbers::pi * section.mass_ratio);
   model.phase_mode = pitch;
   return model;

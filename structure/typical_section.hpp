@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "structure/structure_model.hpp"
 
 namespace wingbeat {
@@ -12,6 +14,7 @@ struct TypicalSection {
   double gyration_radius_squared = 0.0;  // r_alpha^2, about the elastic axis
   double frequency_ratio = 0.0;          // omega_h/omega_alpha
   double mass_ratio = 0.0;               // mu = m/(pi rho b^2)
+  std::array<double, 2> damping{};       // fraction of critical of the vacuum modes, by frequency
 };
 
 inline constexpr int plunge = 0;
@@ -20,7 +23,7 @@ inline constexpr int pitch = 1;
 // Elastic axis in chords from the leading edge, x_ea = (1 + a)/2.
 double elastic_axis_in_chords(const TypicalSection& section);
 
-// M = [1 x_a; x_a r_a^2], K = diag((omega_h/omega_alpha)^2, r_a^2), no damping, c = 4/(pi mu), for
+// M = [1 x_a; x_a r_a^2], K = diag((omega_h/omega_alpha)^2, r_a^2), modal damping, c = 4/(pi mu), for
 // forces f = (-C_l, 2 C_m) with C_m about the elastic axis; the phase mode is pitch
 // (eq:typical-section). Throws InputError where a value has no physical meaning.
 StructureModel structure_model(const TypicalSection& section);

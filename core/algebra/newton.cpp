@@ -110,6 +110,9 @@ class NewtonSolve {
     for (std::size_t i = 0; i < f_.size(); ++i) rhs_[i] = -f_[i];
     GmresOptions gmres_options = options_.gmres;
     gmres_options.relative_tolerance = forcing;
+    // Factors that are out of date get a fair try, not a long one.
+    if (!line.refactored)
+      gmres_options.max_iterations = std::min(gmres_options.max_iterations, 2 * options_.refactor_iterations);
     std::fill(step_.begin(), step_.end(), 0.0);
     for (;;) {
       const GmresResult solve =
@@ -121,6 +124,7 @@ class NewtonSolve {
       if (solve.status == GmresStatus::converged) return true;
       if (!line.refactored) {
         refactor(line);  // and go on from where the old factors led
+        gmres_options.max_iterations = options_.gmres.max_iterations;
         continue;
       }
       // Any reduction of the linear residual makes du a descent direction of |F|.

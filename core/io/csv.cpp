@@ -14,8 +14,12 @@ namespace {
 std::string quoted(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string result = "\"";
-  for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return result + "\"";
+  for (const char c : text) {
+    if (c == '"') result += c;
+    result += c;
+  }
+  result += '"';
+  return result;
 }
 
 std::string cell_text(const CsvTable::Cell& cell) {

@@ -15,13 +15,16 @@ namespace wingbeat {
 namespace fs = std::filesystem;
 
 std::string read_file(const fs::path& path) {
+  const auto refuse = [&](const char* reason) {
+    throw InputError(fmt::format("{}: cannot read the file: {}", path.string(), reason));
+  };
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored)) refuse("it is a folder");
   errno = 0;
   std::ifstream stream(path, std::ios::binary);
   std::string text;
   if (stream) text.assign(std::istreambuf_iterator<char>(stream), {});
-  if (!stream || fs::is_directory(path))
-    throw InputError(fmt::format("{}: cannot read the file: {}", path.string(),
-                                 errno != 0 ? std::strerror(errno) : "not a regular file"));
+  if (!stream) refuse(errno != 0 ? std::strerror(errno) : "input failed");
   return text;
 }
 

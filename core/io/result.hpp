@@ -17,7 +17,7 @@ struct Result {
   std::string status = "error";  // converged, stalled, iteration-limit, diverged, interrupted, error
   std::string message{};
   int ranks = 1;
-  std::string version;
+  std::string version{};
   std::vector<std::pair<std::string, double>> wall_seconds{};  // part of the program, seconds
   nlohmann::ordered_json findings = nlohmann::ordered_json::object();
 

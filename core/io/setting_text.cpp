@@ -18,10 +18,16 @@ std::string allowed_column(const Setting& key) {
   return allowed.empty() ? "any" : allowed;
 }
 
+// "case.toml:7" of "wings/case.toml:7": the head of the file names the whole path.
+std::string short_source(const std::string& source) { return source.substr(source.rfind('/') + 1); }
+
 // A bar would end the cell of a Markdown table.
 std::string markdown_cell(const std::string& text) {
   std::string cell;
-  for (const char c : text) cell += c == '|' ? std::string("\\|") : std::string(1, c);
+  for (const char c : text) {
+    if (c == '|') cell += '\\';
+    cell += c;
+  }
   return cell;
 }
 
@@ -36,7 +42,8 @@ std::string resolved_case(const SettingRegistry& settings) {
       if (key.info.required && !is_given) continue;
       const std::string value = key.value_text();
       if (value.empty()) continue;
-      lines += fmt::format("{:<40} # {}\n", key.name + " = " + value, is_given ? key.source : "default");
+      lines += fmt::format("{:<40} # {}\n", key.name + " = " + value,
+                           is_given ? short_source(key.source) : "default");
     }
     if (!lines.empty()) text += fmt::format("{}[{}]\n{}", text.empty() ? "" : "\n", section.name(), lines);
   }

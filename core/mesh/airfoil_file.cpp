@@ -18,8 +18,9 @@ namespace {
 using Point = Vec<double, 2>;
 
 constexpr std::size_t minimum_points = 10;
-constexpr double chord_tolerance = 0.01;  // of leading edge, chord and trailing-edge gap, chords
-constexpr double cusp_tolerance = 0.01;   // interpolation error of a trailing-edge angle of zero, radians
+constexpr double chord_tolerance = 0.01;       // of leading edge, chord and trailing-edge gap, chords
+constexpr double repetition_tolerance = 1e-9;  // of points, chords
+constexpr double cusp_tolerance = 0.01;  // interpolation error of a trailing-edge angle of zero, radians
 
 // A point of the file and the line it stands on.
 struct Ordinate {
@@ -29,6 +30,10 @@ struct Ordinate {
 
 [[noreturn]] void refuse(const std::string& file, int line, const std::string& what) {
   throw InputError(file + ":" + std::to_string(line) + ": " + what);
+}
+
+double distance(const Ordinate& a, const Ordinate& b) {
+  return std::hypot(a.position[0] - b.position[0], a.position[1] - b.position[1]);
 }
 
 double cross(const Point& a, const Point& b) { return a[0] * b[1] - a[1] * b[0]; }
@@ -83,27 +88,16 @@ std::vector<Ordinate> parse(std::istream& input, const std::string& file) {
   return ordinates;
 }
 
-void check_points(const std::vector<Ordinate>& points, const std::string& file) {
-  if (points.size() < minimum_points)
-    throw InputError(file + ": " + std::to_string(points.size()) + " points; a section needs at least " +
-                     std::to_string(minimum_points));
-  // The two ends may coincide: that is a closed trailing edge.
-  for (std::size_t i = 0; i < points.size(); ++i)
-    for (std::size_t j = i + 1; j < points.size(); ++j)
-      if (points[i].position == points[j].position && !(i == 0 && j + 1 == points.size()))
-        refuse(
-            file, points[j].line,
-            "repeats the point of line " + std::to_string(points[i].line) + "; each point may be given once");
-}
-
 std::size_t foremost(const std::vector<Ordinate>& points) {
   const auto less = [](const Ordinate& a, const Ordinate& b) { return a.position[0] < b.position[0]; };
   return static_cast<std::size_t>(std::min_element(points.begin(), points.end(), less) - points.begin());
 }
 
-// Leading edge to x = 0, chord to 1, both ends to their midpoint.
-void normalise(std::vector<Ordinate>& points, const std::string& file) {
-  const Point first = points.front().position, last = points.back().position;
+// The ends first: a file in another order fails the other checks for reasons that do not help.
+void check_chord(const std::vector<Ordinate>& points, const std::string& file) {
+  if (points.size() < minimum_points)
+    throw InputError(file + ": " + std::to_string(points.size()) + " points; a section needs at least " +
+                     std::to_string(minimum_points));
   const double nose = points[foremost(points)].position[0];
   for (const Ordinate* end : {&points.front(), &points.back()})
     if (std::abs(end->position[0] - 1.0) > chord_tolerance)
@@ -114,10 +108,25 @@ void normalise(std::vector<Ordinate>& points, const std::string& file) {
   if (std::abs(nose) > chord_tolerance)
     refuse(file, points[foremost(points)].line,
            "leading edge at x = " + std::to_string(nose) + "; it must lie at x = 0 within 1 % chord");
-  if (std::hypot(first[0] - last[0], first[1] - last[1]) > chord_tolerance)
+  if (distance(points.front(), points.back()) > chord_tolerance)
     refuse(file, points.back().line,
            "trailing edge open by more than 1 % chord; close it, the mesh needs a sharp edge");
+}
 
+void check_repetition(const std::vector<Ordinate>& points, const std::string& file) {
+  // The two ends may coincide: that is a closed trailing edge.
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (std::size_t j = i + 1; j < points.size(); ++j)
+      if (distance(points[i], points[j]) < repetition_tolerance && !(i == 0 && j + 1 == points.size()))
+        refuse(
+            file, points[j].line,
+            "repeats the point of line " + std::to_string(points[i].line) + "; each point may be given once");
+}
+
+// Leading edge to x = 0, chord to 1, both ends to their midpoint.
+void normalise(std::vector<Ordinate>& points) {
+  const Point first = points.front().position, last = points.back().position;
+  const double nose = points[foremost(points)].position[0];
   const Point middle = 0.5 * (first + last);
   const std::size_t leading = foremost(points);
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -163,7 +172,7 @@ Point nose_vertex(const std::vector<Ordinate>& points) {
   const double curvature = (high - low) / (c[1] - a[1]);
   if (curvature <= 0.0) return b;
   const double y = 0.5 * (a[1] + b[1] - low / curvature);
-  return {{a[0] + (y - a[1]) * (low + curvature * (y - b[1])), y}};
+  return {{std::min(b[0], a[0] + (y - a[1]) * (low + curvature * (y - b[1]))), y}};
 }
 
 std::vector<double> curve_parameters(const std::vector<Ordinate>& points, const std::string& file) {
@@ -176,7 +185,7 @@ std::vector<double> curve_parameters(const std::vector<Ordinate>& points, const 
     const bool lower = i < leading || (i == leading && p[1] < nose[1]);
     const double root = std::sqrt((p[0] - nose[0]) / chord);
     parameters.push_back(lower ? -root : root);
-    if (i > 0 && parameters[i] <= parameters[i - 1])
+    if (i > 0 && !(parameters[i] > parameters[i - 1]))
       refuse(file, points[i].line,
              "x must fall from the trailing edge to the leading edge and rise again to the "
              "trailing edge; here it turns back");
@@ -194,9 +203,10 @@ Airfoil read_airfoil(const std::filesystem::path& path) {
 
 Airfoil read_airfoil(std::istream& input, const std::string& name) {
   std::vector<Ordinate> points = parse(input, name);
-  check_points(points, name);
-  normalise(points, name);
+  check_chord(points, name);
+  check_repetition(points, name);
   check_crossing(points, name);
+  normalise(points);
   order_from_lower_trailing_edge(points);
   const std::vector<double> parameters = curve_parameters(points, name);
   std::vector<double> x, y;

@@ -1,10 +1,12 @@
 #include "core/mesh/cut_blocks.hpp"
 
 #include <algorithm>
+#include <climits>
 #include <optional>
 #include <string>
 
 #include "core/io/error.hpp"
+#include "core/mesh/interface_transform.hpp"
 
 namespace wingbeat {
 
@@ -52,41 +54,24 @@ bool spans_a_face(const Box<Dim>& nodes, int direction) {
   return true;
 }
 
-// Where an interface sends a box of nodes of this zone; with `inverse`, where it sends one of the donor.
-template <int Dim>
-Box<Dim> mapped(const Interface<Dim>& interface, const Box<Dim>& box, bool inverse) {
-  Box<Dim> image;
-  for (int d = 0; d < Dim; ++d) {
-    const int e = interface.axis[d];
-    const int from = inverse ? e : d, to = inverse ? d : e;
-    const int base_from = inverse ? interface.donor_origin[e] : interface.nodes.begin[d];
-    const int base_to = inverse ? interface.nodes.begin[d] : interface.donor_origin[e];
-    const int a = base_to + interface.sign[d] * (box.begin[from] - base_from);
-    const int b = base_to + interface.sign[d] * (box.end[from] - 1 - base_from);
-    image.begin[to] = std::min(a, b);
-    image.end[to] = std::max(a, b) + 1;
-  }
-  return image;
-}
-
 // The part of an interface between two pieces, in their own indices; none if they share no face.
 template <int Dim>
 std::optional<Interface<Dim>> common_part(const Interface<Dim>& interface, const Piece<Dim>& piece,
                                           const std::vector<Piece<Dim>>& pieces, int donor_number) {
   const Piece<Dim>& donor = pieces[static_cast<std::size_t>(donor_number)];
-  const Box<Dim> seen = mapped(interface, side_nodes(donor.cells, interface.donor_side), true);
   const Box<Dim> own = intersection(interface.nodes, side_nodes(piece.cells, interface.side));
+  if (!spans_a_face(own, interface.side.direction)) return std::nullopt;
+  const Interface<Dim> back = reversed(interface, piece.zone, interface.name);
+  const Box<Dim> offered = side_nodes(donor.cells, interface.donor_side);
+  const Box<Dim> seen =
+      box_between<Dim>(donor_node<Dim>(back, offered.begin), donor_node<Dim>(back, last_index(offered)));
   const Box<Dim> nodes = intersection(own, seen);
   if (!spans_a_face(nodes, interface.side.direction)) return std::nullopt;
   Interface<Dim> part = interface;
   part.nodes = shifted<Dim>(nodes, piece.cells.begin);
   part.donor = donor_number;
-  for (int d = 0; d < Dim; ++d) {
-    const int e = interface.axis[d];
-    part.donor_origin[e] = interface.donor_origin[e] +
-                           interface.sign[d] * (nodes.begin[d] - interface.nodes.begin[d]) -
-                           donor.cells.begin[e];
-  }
+  part.donor_origin = donor_node<Dim>(interface, nodes.begin);
+  for (int d = 0; d < Dim; ++d) part.donor_origin[d] -= donor.cells.begin[d];
   return part;
 }
 
@@ -202,17 +187,20 @@ void cut_recursively(const Box<Dim>& box, int count, int minimum_width, std::vec
   for (int d = Dim - 1; d >= 0; --d)
     if (box.extent(d) >= count * minimum_width) direction = d;
 
+  // Each part must be wide enough for its pieces, `per_layer` of them side by side; where both
+  // do not fit, the first takes whole layers.
   const int width = box.extent(direction);
-  Box<Dim> low = box, high = box;
-  // Keep each part large enough for its count: shift the cut, then the counts.
-  const auto cut_at = [&](int position) {
-    low.end[direction] = high.begin[direction] = box.begin[direction] + position;
-  };
+  const auto layers = static_cast<std::size_t>(std::max(1, width / minimum_width));
+  const int per_layer =
+      static_cast<int>(std::min<std::size_t>(capacity(box, minimum_width) / layers, INT_MAX));
+  const auto width_for = [&](int pieces) { return ((pieces - 1) / per_layer + 1) * minimum_width; };
   int low_count = count / 2;
-  cut_at(std::clamp((2 * width * low_count + count) / (2 * count), minimum_width, width - minimum_width));
-  const auto low_capacity = static_cast<int>(capacity(low, minimum_width));
-  const auto high_capacity = static_cast<int>(capacity(high, minimum_width));
-  low_count = std::clamp(low_count, std::max(1, count - high_capacity), std::min(low_capacity, count - 1));
+  if (width_for(low_count) + width_for(count - low_count) > width) low_count -= low_count % per_layer;
+  const int even = static_cast<int>((2L * width * low_count + count) / (2L * count));
+  const int position = std::clamp(even, width_for(low_count), width - width_for(count - low_count));
+
+  Box<Dim> low = box, high = box;
+  low.end[direction] = high.begin[direction] = box.begin[direction] + position;
   cut_recursively(low, low_count, minimum_width, boxes);
   cut_recursively(high, count - low_count, minimum_width, boxes);
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "flow/gas.hpp"
 
 namespace wingbeat {
@@ -47,45 +49,58 @@ T fourth_difference_coefficient(const T& e2, const JstCoefficients& jst) {
 
 // What the scheme reads of the four cells in line with a face: ordered along the face normal,
 // the face between cells 1 and 2. Radii are the scaled spectral radii of cells 1 and 2 in the
-// direction of the face.
-template <int Dim, class T>
+// direction of the face. The number type P of pressures and radii may differ from that of states.
+template <int Dim, class T, class P = T>
 struct FaceStencil {
   Vec<State<Dim, T>, 4> w;
-  Vec<T, 4> p;
-  Vec<T, 2> radius;
+  Vec<P, 4> p;
+  Vec<P, 2> radius;
 };
 
-// Dissipative flux d of (rho, rho u, rho H) (eq:jst).
-template <int Dim, class T>
-State<Dim, T> jst_dissipation(const FaceStencil<Dim, T>& cells, const T& sensor_left, const T& sensor_right,
-                              const JstCoefficients& jst) {
-  const T radius = 0.5 * (cells.radius[0] + cells.radius[1]);
+// Weights of the second and fourth differences at a face, spectral radius included (eq:jst-switch).
+template <class T>
+struct JstWeights {
+  T second;
+  T fourth;
+};
+
+template <class T>
+JstWeights<T> jst_weights(const T& sensor_left, const T& sensor_right, const Vec<T, 2>& radius,
+                          const JstCoefficients& jst) {
+  const T mean_radius = 0.5 * (radius[0] + radius[1]);
   const T e2 = jst.k2 * rounded_max(sensor_left, sensor_right, jst);
-  const T second = radius * e2;
-  const T fourth = radius * fourth_difference_coefficient(e2, jst);
-  State<Dim, T> dissipation;
+  return {mean_radius * e2, mean_radius * fourth_difference_coefficient(e2, jst)};
+}
+
+// Differences across the face as coefficients of the four cells: what the dissipation, linear in
+// (rho, rho u, rho H) at given weights, is differentiated by.
+inline constexpr std::array<double, 4> first_difference{0.0, -1.0, 1.0, 0.0};
+inline constexpr std::array<double, 4> third_difference{-1.0, 3.0, -3.0, 1.0};
+
+// Dissipative flux d of (rho, rho u, rho H) (eq:jst).
+template <int Dim, class T, class P>
+State<Dim, P> jst_dissipation(const FaceStencil<Dim, T, P>& cells, const JstWeights<P>& weights) {
+  State<Dim, P> dissipation;
   for (int v = 0; v < state_size<Dim>; ++v) {
-    T first = cells.w[2][v] - cells.w[1][v];
-    T third = cells.w[3][v] - cells.w[0][v] - 3.0 * first;
-    if (v == Dim + 1) {
-      const T pressure_step = cells.p[2] - cells.p[1];
-      first += pressure_step;
-      third += cells.p[3] - cells.p[0] - 3.0 * pressure_step;
-    }
-    dissipation[v] = second * first - fourth * third;
+    const T first = cells.w[2][v] - cells.w[1][v];
+    const T third = cells.w[3][v] - cells.w[0][v] - 3.0 * first;
+    dissipation[v] = weights.second * first - weights.fourth * third;
   }
+  const P first = cells.p[2] - cells.p[1];
+  const P third = cells.p[3] - cells.p[0] - 3.0 * first;
+  dissipation[Dim + 1] += weights.second * first - weights.fourth * third;
   return dissipation;
 }
 
 // Numerical flux F - d through an interior face: mean of the two cells' fluxes less the
 // dissipation.
-template <int Dim, class T, class G>
+template <int Dim, class T>
 State<Dim, T> jst_flux(const FaceStencil<Dim, T>& cells, const T& sensor_left, const T& sensor_right,
-                       const Vec<G, Dim>& normal, const G& sweep, const JstCoefficients& jst) {
-  State<Dim, T> flux = euler_flux<Dim, T, G>(cells.w[1], cells.p[1], normal, sweep) +
-                       euler_flux<Dim, T, G>(cells.w[2], cells.p[2], normal, sweep);
+                       const Vec<T, Dim>& normal, const T& sweep, const JstCoefficients& jst) {
+  State<Dim, T> flux = euler_flux<Dim>(cells.w[1], cells.p[1], normal, sweep) +
+                       euler_flux<Dim>(cells.w[2], cells.p[2], normal, sweep);
   flux *= 0.5;
-  flux -= jst_dissipation<Dim, T>(cells, sensor_left, sensor_right, jst);
+  flux -= jst_dissipation<Dim>(cells, jst_weights(sensor_left, sensor_right, cells.radius, jst));
   return flux;
 }
 

@@ -95,9 +95,8 @@ TEST(FlutterRoots, PolishNeedsFewEvaluationsFromACoarseTable) {
   const FlutterRoot root = polish_flutter_root(model, counted, table, start);
   EXPECT_TRUE(root.is_converged);
   EXPECT_EQ(root.evaluations, evaluations);
-  EXPECT_LE(evaluations, 4);
+  EXPECT_LE(evaluations, 3);
   EXPECT_NEAR(2.0 * root.reduced_velocity / cases[0].speed, 1.0, 1e-9);
-  RecordProperty("evaluations", evaluations);
 }
 
 TEST(FlutterRoots, GrowthSlopeIsThatOfTheNonlinearEigenvalue) {
@@ -173,12 +172,36 @@ TEST(FlutterRoots, FindsTheNarrowHumpThatAScanCouldStepOver) {
   options.scan_steps = 20;  // 0.045 in k, several times the hump
   const std::vector<FlutterRoot> roots = flutter_roots(model, hump, table, options);
   ASSERT_EQ(roots.size(), 2u);
-  EXPECT_NEAR(roots[0].reduced_frequency, 0.5 + half_width, 1e-10);
-  EXPECT_NEAR(roots[1].reduced_frequency, 0.5 - half_width, 1e-10);
+  // Im V/V = 0.1 (half_width^2 - x^2) up to sign: slope 8e-4 at the root, so 1e-10 there is 1.3e-7 in k.
+  EXPECT_NEAR(roots[0].reduced_frequency, 0.5 + half_width, 2e-7);
+  EXPECT_NEAR(roots[1].reduced_frequency, 0.5 - half_width, 2e-7);
   EXPECT_TRUE(roots[0].is_destabilising());
   EXPECT_FALSE(roots[1].is_destabilising());
   model.damping(0, 0) = 0.01;
   EXPECT_TRUE(flutter_roots(model, hump, table, options).empty());
+}
+
+TEST(FlutterRoots, UnloadedModesNeitherFlutterNorCrossByRoundOff) {
+  const StructureModel model = structure_model(cases[0].section);
+  const AerodynamicMatrix none = [](double) -> Eigen::MatrixXcd { return Eigen::MatrixXcd::Zero(2, 2); };
+  const AerodynamicTable table = tabulate(none, spread_reduced_frequencies(0.02, 1.5, 8));
+  EXPECT_TRUE(scan_flutter_roots(model, table).empty());
+  const std::vector<double> speeds = {1.0, 2.0, 3.0, 4.0};
+  EXPECT_TRUE(pk(model, none, 0.0, 10.0, speeds).crossings.empty());
+}
+
+// Structural damping raises the flutter speed, and p-k sees the same point.
+TEST(FlutterRoots, AgreeWithPkWithStructuralDamping) {
+  TypicalSection section = cases[5].section;
+  section.damping = {0.01, 0.03};
+  const StructureModel model = structure_model(section);
+  const FlutterRoot root = flutter_point(flutter_roots(model, flat_plate(-0.2), flat_plate_table(-0.2, 24)));
+  EXPECT_TRUE(root.is_converged);
+  EXPECT_GT(2.0 * root.reduced_velocity, 1.01 * cases[5].speed);
+  const std::vector<double> speeds = {0.2, 0.4, 0.6, 0.8, 1.0, 1.2};
+  const PkResult result = pk(model, flat_plate(-0.2), 0.0, 100.0, speeds);
+  ASSERT_EQ(result.crossings.size(), 1u);
+  EXPECT_NEAR(result.crossings[0].point.reduced_velocity / root.reduced_velocity, 1.0, 1e-8);
 }
 
 TEST(FlutterRoots, RefusesRigidBodyModes) {

@@ -1,0 +1,349 @@
+#include "core/mesh/solution_file.hpp"
+
+#include <cgnslib.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include "core/io/error.hpp"
+#include "core/io/file.hpp"
+#include "core/mesh/cgns_file.hpp"
+#include "core/mesh/cgns_mesh.hpp"
+
+namespace wingbeat {
+namespace {
+
+using Name = std::array<char, 33>;
+constexpr std::size_t name_length = 32;
+constexpr const char* restart_node = "RestartData";
+
+std::string flow_name(std::size_t instance) { return fmt::format("FlowSolution{}", instance + 1); }
+std::string grid_name(std::size_t instance) { return fmt::format("GridCoordinates{}", instance + 1); }
+std::string coordinate_name(int c) { return fmt::format("Coordinate{}", "XYZ"[c]); }
+
+template <int Dim>
+bool has_moving_nodes(const Solution<Dim>& solution) {
+  return !solution.instances.empty() && !solution.instances.front().zones.empty() &&
+         !solution.instances.front().zones.front().nodes.empty();
+}
+
+template <int Dim>
+void check_shape(const MultiblockMesh<Dim>& mesh, const Solution<Dim>& solution) {
+  ensure(!solution.instances.empty(), "a solution has at least one instance");
+  const bool moving = has_moving_nodes(solution);
+  for (std::size_t n = 0; n < solution.instances.size(); ++n) {
+    const SolutionInstance<Dim>& instance = solution.instances[n];
+    ensure(n == 0 || instance.time > solution.instances[n - 1].time, "times of instances increase");
+    ensure(instance.zones.size() == mesh.zones.size(), "an instance has every zone");
+    for (std::size_t z = 0; z < mesh.zones.size(); ++z) {
+      for (const SolutionField& field : instance.zones[z].fields)
+        ensure(field.values.size() == box_of<Dim>(mesh.zones[z].cells).size(),
+               "a field has a value for each cell");
+      ensure(instance.zones[z].nodes.size() == (moving ? mesh.zones[z].nodes.interior().size() : 0),
+             "all zones of all instances have all their nodes, or none has any");
+    }
+  }
+  for (const auto& [name, values] : solution.data)
+    ensure(!values.empty() && !name.empty() && name.size() <= name_length,
+           "restart data has a name and values");
+}
+
+template <int Dim>
+std::array<cgsize_t, Dim> sizes(const Index<Dim>& extents) {
+  std::array<cgsize_t, Dim> result{};
+  std::copy(extents.begin(), extents.end(), result.begin());
+  return result;
+}
+
+// Goes to a node below a zone.
+template <class... Path>
+void go_to(const CgnsFile& file, int base, int zone, const std::string& where, Path... path) {
+  file.check(cg_goto(file.number(), base, "Zone_t", zone, path..., "end"), where);
+}
+
+// A table of names, one of 32 characters a step, in the current node.
+void write_pointers(const CgnsFile& file, const char* array, std::span<const std::string> names) {
+  std::string text;
+  for (const std::string& name : names) text += fmt::format("{:<32}", name);
+  const std::array<cgsize_t, 2> size{static_cast<cgsize_t>(name_length), static_cast<cgsize_t>(names.size())};
+  file.check(cg_array_write(array, CGNS_ENUMV(Character), 2, size.data(), text.data()), array);
+}
+
+void write_times(const CgnsFile& file, int base, std::span<const double> times) {
+  const auto count = static_cast<cgsize_t>(times.size());
+  file.check(cg_simulation_type_write(file.number(), base, CGNS_ENUMV(TimeAccurate)), "simulation type");
+  file.check(cg_biter_write(file.number(), base, "BaseIterativeData", static_cast<int>(count)), "times");
+  file.check(cg_goto(file.number(), base, "BaseIterativeData_t", 1, "end"), "times");
+  file.check(cg_array_write("TimeValues", CGNS_ENUMV(RealDouble), 1, &count, times.data()), "times");
+}
+
+void write_restart_data(const CgnsFile& file, int base,
+                        const std::map<std::string, std::vector<double>>& data) {
+  if (data.empty()) return;
+  file.check(cg_goto(file.number(), base, "end"), restart_node);
+  file.check(cg_user_data_write(restart_node), restart_node);
+  file.check(cg_goto(file.number(), base, restart_node, 0, "end"), restart_node);
+  for (const auto& [name, values] : data) {
+    const auto count = static_cast<cgsize_t>(values.size());
+    file.check(cg_array_write(name.c_str(), CGNS_ENUMV(RealDouble), 1, &count, values.data()), name);
+  }
+}
+
+template <int Dim>
+void write_grid(const CgnsFile& file, int base, int number, const Zone<Dim>& zone, const std::string& name,
+                std::span<const Vec<double, Dim>> nodes) {
+  const std::string where = fmt::format("zone '{}', {}", zone.name, name);
+  int grid = 0;
+  file.check(cg_grid_write(file.number(), base, number, name.c_str(), &grid), where);
+  go_to(file, base, number, where, "GridCoordinates_t", grid);
+  const auto size = sizes<Dim>(zone.nodes.extents());
+  std::vector<double> component(nodes.size());
+  for (int c = 0; c < Dim; ++c) {
+    std::transform(nodes.begin(), nodes.end(), component.begin(), [&](const auto& node) { return node[c]; });
+    file.check(cg_array_write(coordinate_name(c).c_str(), CGNS_ENUMV(RealDouble), Dim, size.data(),
+                              component.data()),
+               where);
+  }
+}
+
+template <int Dim>
+void write_flow(const CgnsFile& file, int base, int number, const Zone<Dim>& zone, const std::string& name,
+                const std::vector<SolutionField>& fields) {
+  const std::string where = fmt::format("zone '{}', {}", zone.name, name);
+  int flow = 0;
+  file.check(cg_sol_write(file.number(), base, number, name.c_str(), CGNS_ENUMV(CellCenter), &flow), where);
+  for (const SolutionField& field : fields) {
+    int written = 0;
+    file.check(cg_field_write(file.number(), base, number, flow, CGNS_ENUMV(RealDouble), field.name.c_str(),
+                              field.values.data(), &written),
+               where + ", " + field.name);
+  }
+}
+
+template <int Dim>
+void write_zone_solution(const CgnsFile& file, int base, std::size_t z, const Zone<Dim>& zone,
+                         const Solution<Dim>& solution) {
+  const int number = static_cast<int>(z) + 1;
+  const bool moving = has_moving_nodes(solution);
+  std::vector<std::string> flows;
+  std::vector<std::string> grids;
+  for (std::size_t n = 0; n < solution.instances.size(); ++n) {
+    const ZoneSolution<Dim>& now = solution.instances[n].zones[z];
+    flows.push_back(flow_name(n));
+    write_flow(file, base, number, zone, flows.back(), now.fields);
+    if (!moving) continue;
+    grids.push_back(grid_name(n));
+    write_grid<Dim>(file, base, number, zone, grids.back(), now.nodes);
+  }
+  const std::string where = fmt::format("zone '{}', ZoneIterativeData", zone.name);
+  file.check(cg_ziter_write(file.number(), base, number, "ZoneIterativeData"), where);
+  go_to(file, base, number, where, "ZoneIterativeData_t", 1);
+  write_pointers(file, "FlowSolutionPointers", flows);
+  if (moving) write_pointers(file, "GridCoordinatesPointers", grids);
+}
+
+// Number of the zone called `name` in the file.
+template <int Dim>
+int find_zone(const CgnsFile& file, const Zone<Dim>& zone) {
+  int count = 0;
+  file.check(cg_nzones(file.number(), 1, &count), "zones");
+  for (int number = 1; number <= count; ++number) {
+    Name name{};
+    std::array<cgsize_t, 9> size{};
+    file.check(cg_zone_read(file.number(), 1, number, name.data(), size.data()), "zones");
+    if (zone.name != name.data()) continue;
+    for (std::size_t d = 0; d < Dim; ++d)
+      if (size[d] != zone.cells[d] + 1)
+        file.refuse(fmt::format("zone '{}': has {} nodes in direction {}, the mesh has {}", zone.name,
+                                size[d], "ijk"[d], zone.cells[d] + 1));
+    return number;
+  }
+  file.refuse(fmt::format("has no zone '{}': it is the solution of another mesh", zone.name));
+}
+
+// Number of the child of a zone that `read_name` calls `name`.
+template <class ReadName>
+int find_child(const CgnsFile& file, int count, const std::string& name, const std::string& where,
+               ReadName&& read_name) {
+  for (int number = 1; number <= count; ++number) {
+    Name found{};
+    file.check(read_name(number, found.data()), where);
+    if (name == found.data()) return number;
+  }
+  file.refuse(fmt::format("{}: has no {}; the file is not a solution of this program", where, name));
+}
+
+template <int Dim>
+std::vector<SolutionField> read_flow(const CgnsFile& file, int number, const Zone<Dim>& zone,
+                                     const std::string& name) {
+  const std::string where = fmt::format("zone '{}'", zone.name);
+  const int fn = file.number();
+  int count = 0;
+  file.check(cg_nsols(fn, 1, number, &count), where);
+  CGNS_ENUMT(GridLocation_t) location{};
+  const int flow = find_child(file, count, name, where, [&](int s, char* found) {
+    return cg_sol_info(fn, 1, number, s, found, &location);
+  });
+  if (location != CGNS_ENUMV(CellCenter))
+    file.refuse(fmt::format("{}, {}: is not given at cell centres", where, name));
+  int field_count = 0;
+  file.check(cg_nfields(fn, 1, number, flow, &field_count), where);
+  std::array<cgsize_t, Dim> first{};
+  first.fill(1);
+  const auto last = sizes<Dim>(zone.cells);
+  std::vector<SolutionField> fields;
+  for (int f = 1; f <= field_count; ++f) {
+    Name field{};
+    CGNS_ENUMT(DataType_t) type{};
+    file.check(cg_field_info(fn, 1, number, flow, f, &type, field.data()), where);
+    fields.push_back({field.data(), std::vector<double>(box_of<Dim>(zone.cells).size())});
+    file.check(cg_field_read(fn, 1, number, flow, field.data(), CGNS_ENUMV(RealDouble), first.data(),
+                             last.data(), fields.back().values.data()),
+               where + ", " + fields.back().name);
+  }
+  return fields;
+}
+
+// An array of the current node, by name; empty where there is none.
+std::vector<double> read_array(const CgnsFile& file, const std::string& name, const std::string& where) {
+  int count = 0;
+  file.check(cg_narrays(&count), where);
+  for (int a = 1; a <= count; ++a) {
+    Name found{};
+    CGNS_ENUMT(DataType_t) type{};
+    int dimension = 0;
+    std::array<cgsize_t, 12> size{};
+    file.check(cg_array_info(a, found.data(), &type, &dimension, size.data()), where);
+    if (name != found.data()) continue;
+    std::size_t length = 1;
+    for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d)
+      length *= static_cast<std::size_t>(size[d]);
+    std::vector<double> values(length);
+    file.check(cg_array_read_as(a, CGNS_ENUMV(RealDouble), values.data()), where + ", " + name);
+    return values;
+  }
+  return {};
+}
+
+template <int Dim>
+std::vector<Vec<double, Dim>> read_grid(const CgnsFile& file, int number, const Zone<Dim>& zone,
+                                        const std::string& name) {
+  const std::string where = fmt::format("zone '{}', {}", zone.name, name);
+  int count = 0;
+  file.check(cg_ngrids(file.number(), 1, number, &count), where);
+  const int grid = find_child(file, count, name, where, [&](int g, char* found) {
+    return cg_grid_read(file.number(), 1, number, g, found);
+  });
+  go_to(file, 1, number, where, "GridCoordinates_t", grid);
+  std::vector<Vec<double, Dim>> nodes(zone.nodes.interior().size());
+  for (int c = 0; c < Dim; ++c) {
+    const std::vector<double> component = read_array(file, coordinate_name(c), where);
+    if (component.size() != nodes.size())
+      file.refuse(fmt::format("{}: {} is missing", where, coordinate_name(c)));
+    for (std::size_t n = 0; n < nodes.size(); ++n) nodes[n][c] = component[n];
+  }
+  return nodes;
+}
+
+std::vector<double> read_times(const CgnsFile& file) {
+  Name name{};
+  int steps = 0;
+  if (cg_biter_read(file.number(), 1, name.data(), &steps) != CG_OK)
+    file.refuse("holds no solution (no BaseIterativeData)");
+  file.check(cg_goto(file.number(), 1, "BaseIterativeData_t", 1, "end"), "times");
+  std::vector<double> times = read_array(file, "TimeValues", "times");
+  if (times.empty() || times.size() != static_cast<std::size_t>(steps))
+    file.refuse("TimeValues of BaseIterativeData are missing or do not fit its steps");
+  return times;
+}
+
+std::map<std::string, std::vector<double>> read_restart_data(const CgnsFile& file) {
+  std::map<std::string, std::vector<double>> data;
+  if (cg_goto(file.number(), 1, restart_node, 0, "end") != CG_OK) return data;
+  int count = 0;
+  file.check(cg_narrays(&count), restart_node);
+  for (int a = 1; a <= count; ++a) {
+    Name name{};
+    CGNS_ENUMT(DataType_t) type{};
+    int dimension = 0;
+    std::array<cgsize_t, 12> size{};
+    file.check(cg_array_info(a, name.data(), &type, &dimension, size.data()), restart_node);
+    data[name.data()] = read_array(file, name.data(), restart_node);
+  }
+  return data;
+}
+
+// Whether a zone has coordinates of its own for each step.
+bool has_grid_pointers(const CgnsFile& file, int number, const std::string& where) {
+  if (cg_goto(file.number(), 1, "Zone_t", number, "ZoneIterativeData_t", 1, "end") != CG_OK) return false;
+  int count = 0;
+  file.check(cg_narrays(&count), where);
+  for (int a = 1; a <= count; ++a) {
+    Name name{};
+    CGNS_ENUMT(DataType_t) type{};
+    int dimension = 0;
+    std::array<cgsize_t, 12> size{};
+    file.check(cg_array_info(a, name.data(), &type, &dimension, size.data()), where);
+    if (std::string_view(name.data()) == "GridCoordinatesPointers") return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+template <int Dim>
+void write_solution(const std::filesystem::path& path, const MultiblockMesh<Dim>& mesh,
+                    const Solution<Dim>& solution) {
+  check_shape(mesh, solution);
+  AtomicFile target(path);
+  CgnsFile file = CgnsFile::create(target.temporary(), path);
+  const int base = write_cgns_base(file, mesh);
+  std::vector<double> times;
+  for (const SolutionInstance<Dim>& instance : solution.instances) times.push_back(instance.time);
+  write_times(file, base, times);
+  write_restart_data(file, base, solution.data);
+  for (std::size_t z = 0; z < mesh.zones.size(); ++z)
+    write_zone_solution(file, base, z, mesh.zones[z], solution);
+  file.close();
+  target.commit();
+}
+
+template <int Dim>
+Solution<Dim> read_solution(const std::filesystem::path& path, const MultiblockMesh<Dim>& mesh) {
+  const CgnsFile file = CgnsFile::open(path);
+  Name name{};
+  int cell_dim = 0;
+  int physical_dim = 0;
+  file.check(cg_base_read(file.number(), 1, name.data(), &cell_dim, &physical_dim), "base");
+  if (cell_dim != Dim)
+    file.refuse(fmt::format("its CellDim is {}, the mesh has {} dimensions", cell_dim, Dim));
+  int zone_count = 0;
+  file.check(cg_nzones(file.number(), 1, &zone_count), "zones");
+  if (static_cast<std::size_t>(zone_count) != mesh.zones.size())
+    file.refuse(fmt::format("has {} zones, the mesh has {}: it is the solution of another mesh", zone_count,
+                            mesh.zones.size()));
+
+  Solution<Dim> solution;
+  for (double time : read_times(file)) solution.instances.push_back({time, {}});
+  solution.data = read_restart_data(file);
+  for (const Zone<Dim>& zone : mesh.zones) {
+    const int number = find_zone(file, zone);
+    const bool moving = has_grid_pointers(file, number, zone.name);
+    for (std::size_t n = 0; n < solution.instances.size(); ++n) {
+      ZoneSolution<Dim> now;
+      now.fields = read_flow(file, number, zone, flow_name(n));
+      if (moving) now.nodes = read_grid(file, number, zone, grid_name(n));
+      solution.instances[n].zones.push_back(std::move(now));
+    }
+  }
+  return solution;
+}
+
+template void write_solution<2>(const std::filesystem::path&, const MultiblockMesh<2>&, const Solution<2>&);
+template void write_solution<3>(const std::filesystem::path&, const MultiblockMesh<3>&, const Solution<3>&);
+template Solution<2> read_solution<2>(const std::filesystem::path&, const MultiblockMesh<2>&);
+template Solution<3> read_solution<3>(const std::filesystem::path&, const MultiblockMesh<3>&);
+
+}  // namespace wingbeat

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <complex>
+#include <memory>
+#include <vector>
+
+#include "core/algebra/gmres.hpp"
+#include "core/algebra/schwarz.hpp"
+#include "flow/flow_equations.hpp"
+
+namespace wingbeat {
+
+// Harmonic response of a steady flow to small rigid motions (linearized frequency domain):
+//   (dR/dw + i kappa Omega) w^ = -(dR/dm) m^,  m = (pitch, pitch_rate, plunge_rate)  (eq:frequency-domain).
+struct HarmonicResponse {
+  // State amplitudes for unit pitch (radians) and for unit plunge h (chords): [owned cell][variable].
+  std::vector<std::complex<double>> pitch, plunge;
+  // Amplitudes of (force_y, moment) for the same two.
+  std::array<std::complex<double>, 2> pitch_loads, plunge_loads;
+};
+
+template <int Dim>
+class FrequencyResponse {
+ public:
+  // `flow`: one instance, linearized at the steady state, kept alive and linearized there.
+  FrequencyResponse(const FlowEquations<Dim>& flow, std::shared_ptr<SchwarzSolver<std::complex<double>>> solver,
+                    double tolerance = 1e-10);
+
+  // At frequency kappa on the flow's clock. The factors of another frequency serve while GMRES
+  // stays short with them. Collective. Throws InternalError where the linear solve fails.
+  HarmonicResponse at(double kappa);
+
+  int factorization_count() const { return factorizations_; }
+  int linear_iterations() const { return linear_iterations_; }
+
+ private:
+  std::vector<std::complex<double>> solve(double kappa, std::span<const std::complex<double>> rhs);
+  void factor(double kappa);
+
+  const FlowEquations<Dim>& flow_;
+  std::shared_ptr<SchwarzSolver<std::complex<double>>> solver_;
+  double tolerance_;
+  double factored_kappa_ = -1.0;
+  int factorizations_ = 0;
+  int linear_iterations_ = 0;
+};
+
+}  // namespace wingbeat

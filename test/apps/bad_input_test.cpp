@@ -1,0 +1,134 @@
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include "test/apps/program.hpp"
+
+namespace wingbeat {
+namespace {
+
+// Each fault a user can make must end the program with status 2, a message that says what to do
+// and a result.json that says the same.
+class BadInput : public Program {
+ protected:
+  // Runs `verb` on a case with these lines of [mesh] and more.
+  ProgramRun run_case(const std::string& verb, const std::string& text, int ranks = 0) const {
+    write("case.toml", text);
+    return run({verb, "case.toml", "--output", "out"}, ranks);
+  }
+};
+
+// A ring of 16 x 4 cells in Plot3D, wall at radius 1 and far field at radius 30; node (i, j) moved by
+// `shift`.
+std::string ring_plot3d(int moved_i, int moved_j, double shift) {
+  constexpr int around = 16, layers = 4;
+  std::ostringstream x, y;
+  for (int j = 0; j <= layers; ++j)
+    for (int i = 0; i <= around; ++i) {
+      // Clockwise from the inside, so that (i, j) is right-handed.
+      const double angle = -2.0 * std::numbers::pi * (i % around) / around;
+      const double radius =
+          std::pow(30.0, static_cast<double>(j) / layers) + (i == moved_i && j == moved_j ? shift : 0.0);
+      x << radius * std::cos(angle) << '\n';
+      y << radius * std::sin(angle) << '\n';
+    }
+  return "1\n" + std::to_string(around + 1) + " " + std::to_string(layers + 1) + "\n" + x.str() + y.str();
+}
+
+TEST_F(BadInput, MisspeltKey) {
+  expect_refused(run_case("mesh", "[mesh]\nairfoil = \"naca0012\"\n[flow]\nmahc = 0.8\n"), "out",
+                 "case.toml:4: flow.mahc = 0.8: unknown key; did you mean flow.mach?");
+}
+
+TEST_F(BadInput, WrongType) {
+  expect_refused(run_case("mesh", "[mesh]\nairfoil = \"naca0012\"\ncells = \"many\"\n"), "out",
+                 "case.toml:3: mesh.cells = \"many\": expected two integers");
+}
+
+TEST_F(BadInput, OutOfRange) {
+  expect_refused(run_case("mesh", "[mesh]\nairfoil = \"naca0012\"\n[flow]\nmach = 9.0\n"), "out",
+                 "case.toml:4: flow.mach = 9.0: out of range; allowed: 0.05 to 3");
+}
+
+TEST_F(BadInput, AllFaultsAtOnceOnEveryRankOnce) {
+  const auto run =
+      run_case("mesh", "[mesh]\nairfoil = \"naca0012\"\nfile = \"none.cgns\"\n[flow]\nmach = nan\n", 2);
+  expect_refused(run, "out", "2 faults in the case:");
+  expect_in("mesh.file = \"none.cgns\": no such file", run.errors);
+  expect_in("flow.mach = nan: not a finite number", run.errors);
+  EXPECT_EQ(run.errors.find("2 faults"), run.errors.rfind("2 faults"));
+}
+
+TEST_F(BadInput, AirfoilAndFileExcludeEachOther) {
+  write("mesh.cgns", "x");
+  expect_refused(run_case("mesh", "[mesh]\nairfoil = \"naca0012\"\nfile = \"mesh.cgns\"\n"), "out",
+                 "set together with mesh.file");
+}
+
+TEST_F(BadInput, NeitherAirfoilNorFile) {
+  expect_refused(run_case("mesh", "[mesh]\ncells = [32, 8]\n"), "out", "give mesh.airfoil or mesh.file");
+}
+
+TEST_F(BadInput, MissingCaseFile) {
+  expect_refused(run({"mesh", "none.toml", "--output", "out"}), "out", "none.toml: cannot read the file");
+}
+
+TEST_F(BadInput, CaseThatIsNotToml) { expect_refused(run_case("mesh", "[mesh\n"), "out", "case.toml:1:"); }
+
+TEST_F(BadInput, MissingMeshFile) {
+  expect_refused(run_case("mesh", "[mesh]\nfile = \"none.cgns\"\n"), "out",
+                 "case.toml:2: mesh.file = \"none.cgns\": no such file: ");
+}
+
+TEST_F(BadInput, CorruptCgns) {
+  write("mesh.cgns", "this is not a mesh");
+  expect_refused(run_case("mesh", "[mesh]\nfile = \"mesh.cgns\"\n"), "out", "mesh.cgns");
+}
+
+TEST_F(BadInput, TruncatedCgns) {
+  write("good.toml", "[mesh]\nairfoil = \"naca0012\"\ncells = [32, 8]\n");
+  ASSERT_EQ(run({"mesh", "good.toml"}).exit_code, 0);
+  const std::string whole = read("good-mesh/mesh.cgns");
+  write("mesh.cgns", whole.substr(0, whole.size() / 2));
+  expect_refused(run_case("mesh", "[mesh]\nfile = \"mesh.cgns\"\n"), "out", "mesh.cgns");
+}
+
+TEST_F(BadInput, InvertedCellIsNamed) {
+  write("ring.x", ring_plot3d(0, 0, 0.0));
+  ASSERT_EQ(run_case("mesh", "[mesh]\nfile = \"ring.x\"\n").exit_code, 0) << read(".errors");
+  std::filesystem::remove_all(folder_ / "out");
+  write("ring.x", ring_plot3d(5, 1, 20.0));  // beyond the layers above it
+  expect_refused(run_case("mesh", "[mesh]\nfile = \"ring.x\"\n"), "out", "volume");
+}
+
+TEST_F(BadInput, MoreRanksThanCells) {
+  write("case.toml", "[mesh]\nairfoil = \"naca0012\"\ncells = [16, 4]\n");
+  expect_refused(run({"partition", "case.toml", "--ranks", "65", "--output", "out"}), "out", "65 ranks");
+}
+
+TEST_F(BadInput, OrdinatesThatAreNotNumbers) {
+  write("wing.dat", "wing\n1.0 0.0\n0.5 0.05\n0.25 nan\n0.0 0.0\n0.5 -0.05\n1.0 0.0\n");
+  expect_refused(run_case("mesh", "[mesh]\nairfoil = \"wing.dat\"\n"), "out", "wing.dat:4");
+}
+
+TEST_F(BadInput, UnknownAirfoilName) {
+  expect_refused(run_case("mesh", "[mesh]\nairfoil = \"naca64a10\"\n"), "out", "not a known name");
+}
+
+TEST_F(BadInput, OldResultDoesNotSurviveAFailure) {
+  ASSERT_EQ(run_case("mesh", "[mesh]\nairfoil = \"naca0012\"\ncells = [32, 8]\n").exit_code, 0);
+  std::filesystem::remove(folder_ / "out/mesh.cgns");
+  expect_refused(run_case("mesh", "[mesh]\nairfoil = \"naca0012\"\ncells = [32, 2]\n"), "out",
+                 "out of range");
+}
+
+TEST_F(BadInput, OutputThatCannotBeWritten) {
+  write("case.toml", "[mesh]\nairfoil = \"naca0012\"\ncells = [32, 8]\n");
+  write("plain", "a file where a folder should be");
+  const auto refused = run({"mesh", "case.toml", "--output", "plain/out"}, 2);
+  EXPECT_EQ(refused.exit_code, 2);
+  expect_in("plain", refused.errors);
+}
+
+}  // namespace
+}  // namespace wingbeat

@@ -1,0 +1,86 @@
+#include "test/apps/program.hpp"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+
+namespace wingbeat {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string read_text(const fs::path& path) {
+  std::ifstream stream(path);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::string quoted(const std::string& argument) {
+  std::string text = "'";
+  for (const char c : argument) {
+    if (c == '\'') text += "'\\'";
+    text += c;
+  }
+  text += '\'';
+  return text;
+}
+
+}  // namespace
+
+void Program::SetUp() {
+  const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+  folder_ = fs::temp_directory_path() /
+            ("wingbeat-" + std::string(test->name()) + "-" + std::to_string(::getpid()));
+  fs::create_directories(folder_);
+}
+
+void Program::TearDown() { fs::remove_all(folder_); }
+
+ProgramRun Program::run(const std::vector<std::string>& arguments, int ranks) const {
+  const fs::path output = folder_ / ".output", errors = folder_ / ".errors";
+  std::string command = "cd " + quoted(folder_.string()) + " && ";
+  if (ranks > 0) command += WINGBEAT_MPIEXEC " -n " + std::to_string(ranks) + " ";
+  command += quoted(WINGBEAT_PROGRAM);
+  for (const auto& argument : arguments) command += " " + quoted(argument);
+  command += " > " + quoted(output.string()) + " 2> " + quoted(errors.string()) + " < /dev/null";
+  const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(output), read_text(errors)};
+}
+
+void Program::write(const std::string& name, const std::string& text) const {
+  fs::create_directories((folder_ / name).parent_path());
+  std::ofstream(folder_ / name) << text;
+}
+
+std::string Program::read(const std::string& name) const { return read_text(folder_ / name); }
+
+nlohmann::json Program::result(const std::string& output) const {
+  return nlohmann::json::parse(read(output + "/result.json"));
+}
+
+std::set<std::string> Program::files(const std::string& output) const {
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder_ / output))
+    names.insert(entry.path().filename().string());
+  return names;
+}
+
+void Program::expect_refused(const ProgramRun& run, const std::string& output,
+                             const std::string& message) const {
+  EXPECT_EQ(run.exit_code, 2) << run.errors;
+  expect_in(message, run.errors);
+  const auto json = result(output);
+  EXPECT_EQ(json["status"], "error");
+  expect_in(message, json["message"].get<std::string>());
+  const std::set<std::string> allowed{"case.toml", "log.txt", "result.json"};
+  for (const auto& name : files(output)) EXPECT_TRUE(allowed.contains(name)) << "left behind: " << name;
+}
+
+void expect_in(const std::string& part, const std::string& whole) {
+  EXPECT_NE(whole.find(part), std::string::npos) << "missing: " << part << "\nin: " << whole;
+}
+
+}  // namespace wingbeat
