@@ -1,4 +1,5 @@
 #include "apps/case_mesh.hpp"
+#include "apps/mesh_table.hpp"
 #include "apps/on_root.hpp"
 #include "apps/verbs.hpp"
 #include "core/mesh/cgns_mesh.hpp"
@@ -7,12 +8,16 @@
 namespace wingbeat {
 
 SolveStatus run_mesh(Context& context) {
+  constexpr double plot_margin = 0.5;  // chords around the section that pictures show
   const AnyMesh mesh = make_case_mesh(context.settings.mesh);
   std::visit(
       [&]<int Dim>(const MultiblockMesh<Dim>& built) {
         const MeshQuality<Dim> quality = measure_quality(built);
         context.log.line(format_quality(built, quality));
-        on_root(context.comm, [&] { write_cgns(built, context.output / "mesh.cgns"); });
+        on_root(context.comm, [&] {
+          write_cgns(built, context.output / "mesh.cgns");
+          if constexpr (Dim == 2) near_wall_nodes(built, plot_margin).write(context.output / "mesh.csv");
+        });
         context.result.findings["mesh"] = {{"dimension", Dim},
                                            {"blocks", quality.zones},
                                            {"cells", quality.cells},

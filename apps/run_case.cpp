@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "apps/case_mesh.hpp"
 #include "apps/on_root.hpp"
 #include "apps/timing.hpp"
 #include "apps/verbs.hpp"
@@ -53,6 +54,14 @@ void prepare_output(const Comm& comm, const CommandLine& command, const Resolved
   });
 }
 
+// What a run would work on. Making the mesh finds its faults, too.
+void show_plan(const ResolvedCase& resolved, Log& log) {
+  log.line(resolved.text);
+  std::visit(
+      [&](const auto& mesh) { log.line("# {} cells in {} blocks", mesh.cell_count(), mesh.zones.size()); },
+      make_case_mesh(resolved.settings.mesh));
+}
+
 // A result of an earlier run must not be taken for one of this run.
 void remove_old_result(const Comm& comm, const fs::path& output) {
   on_root(comm, [&] {
@@ -76,7 +85,7 @@ int execute(const Comm& comm, const CommandLine& command, Result& result, Timer&
   const ResolvedCase resolved = read_case(comm, command, verb);
   Log log(comm.is_root());
   if (command.dry_run) {
-    log.line(resolved.text);
+    show_plan(resolved, log);
     return exit_converged;
   }
   if (command.restart)

@@ -28,15 +28,26 @@ HarmonicPreconditioner<Dim>::HarmonicPreconditioner(const FlowDomain<Dim>& domai
     : domain_(domain), time_(time), factors_(std::move(factors)) {}
 
 template <int Dim>
-void HarmonicPreconditioner<Dim>::factor(const FlowEquations<Dim>& flow, double kappa) {
+void HarmonicPreconditioner<Dim>::factor(const FlowEquations<Dim>& flow, double kappa, bool keep_existing) {
   BlockSparse<state_size<Dim>> mean(domain_.pattern());
   const double weight = 1.0 / static_cast<double>(flow.instance_count());
   for (const auto& jacobian : flow.jacobians())
     for (std::size_t i = 0; i < mean.values().size(); ++i) mean.values()[i] += weight * jacobian.values()[i];
-  factors_.mean->factor(mean, std::span<const double>{});
-  for (int h = 1; h <= time_.harmonics(); ++h)
-    factors_.harmonics[static_cast<std::size_t>(h - 1)]->factor(
-        mean, std::span<const Complex>(harmonic_shift(domain_.volumes(), h * kappa)));
+  const auto is_due = [&](const auto& solver) { return !keep_existing || !solver.is_factored(); };
+  if (is_due(*factors_.mean)) factors_.mean->factor(mean, std::span<const double>{});
+  for (int h = 1; h <= time_.harmonics(); ++h) {
+    auto& solver = *factors_.harmonics[static_cast<std::size_t>(h - 1)];
+    if (is_due(solver)) solver.factor(mean, std::span<const Complex>(harmonic_shift(domain_.volumes(), h * kappa)));
+  }
+}
+
+template <int Dim>
+void HarmonicPreconditioner<Dim>::factor(const FlowEquations<Dim>& flow, double kappa) {
+  factor(flow, kappa, false);
+}
+template <int Dim>
+void HarmonicPreconditioner<Dim>::factor_missing(const FlowEquations<Dim>& flow, double kappa) {
+  factor(flow, kappa, true);
 }
 
 template <int Dim>

@@ -27,10 +27,11 @@ class HarmonicPreconditioner final : public LinearOperator<double> {
   // Takes factors that exist already (those of the steady and the linearized problem, say).
   HarmonicPreconditioner(const FlowDomain<Dim>& domain, const TimeSpectral& time, HarmonicFactors factors);
 
-  // Factors the mean of the flow's Jacobians at the given frequency. Collective.
+  // Factors the mean of the flow's Jacobians at the given frequency: of all harmonics, or only of
+  // those that have no factors yet. Collective.
   void factor(const FlowEquations<Dim>& flow, double kappa);
+  void factor_missing(const FlowEquations<Dim>& flow, double kappa);
   bool is_factored() const;
-  int factorization_count() const { return 1 + time_.harmonics(); }
 
   std::size_t local_size() const override { return static_cast<std::size_t>(time_.instances()) * domain_.state_count(); }
   void apply(std::span<const double> x, std::span<double> y) const override;
@@ -40,6 +41,7 @@ class HarmonicPreconditioner final : public LinearOperator<double> {
   std::vector<Complex> solve_harmonic(int h, std::span<const double> rhs) const;
 
  private:
+  void factor(const FlowEquations<Dim>& flow, double kappa, bool keep_existing);
   void solve(std::span<const double> x, std::span<double> y, bool transposed) const;
 
   const FlowDomain<Dim>& domain_;

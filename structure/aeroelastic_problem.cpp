@@ -214,7 +214,9 @@ void AeroelasticProblem<Dim>::linearize_tail(const AeroelasticState& at, const s
 
 template <int Dim>
 void AeroelasticProblem<Dim>::refactor() {
-  harmonic_.factor(flow_, linearization_.kinematics.kappa(omega_, linearization_.r));
+  const double kappa = linearization_.kinematics.kappa(omega_, linearization_.r);
+  if (is_factored()) harmonic_.factor(flow_, kappa);
+  else harmonic_.factor_missing(flow_, kappa);
   preconditioner_.build_responses();
   preconditioner_.update_schur();
 }

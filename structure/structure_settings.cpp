@@ -2,6 +2,15 @@
 
 namespace wingbeat {
 
+TypicalSection StructureSettings::section() const {
+  return {.elastic_axis = elastic_axis,
+          .static_unbalance = static_unbalance,
+          .gyration_radius_squared = gyration_radius_squared,
+          .frequency_ratio = frequency_ratio,
+          .mass_ratio = mass_ratio,
+          .damping = damping};
+}
+
 void StructureSettings::describe(SettingSection& keys) {
   keys.add("elastic_axis", &elastic_axis,
            {.help = "a, elastic axis aft of mid-chord",

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "core/io/settings.hpp"
+#include "structure/typical_section.hpp"
 
 namespace wingbeat {
 
@@ -15,6 +16,7 @@ struct StructureSettings {
   double mass_ratio = 0.0;               // m / (pi rho b^2)
   std::array<double, 2> damping{0.0, 0.0};
 
+  TypicalSection section() const;
   void describe(SettingSection& keys);
 };
 

@@ -13,6 +13,9 @@
 namespace wingbeat {
 namespace {
 
+// A cycle that leaves more than this part of the residual leads nowhere.
+constexpr double stagnation = 0.999;
+
 // The small least-squares problem min |beta e_1 - H y|, H upper Hessenberg, kept triangular by
 // Givens rotations while columns are added.
 template <class T>
@@ -33,12 +36,15 @@ class HessenbergLeastSquares {
     return std::abs(rhs_.back());
   }
 
-  // The minimiser; a direction the operator maps to nothing gets no weight.
+  // The minimiser; directions the operator maps to nothing, to round-off, get no weight.
   std::vector<T> solution() const {
     std::vector<T> y(rhs_.begin(), rhs_.end() - 1);
+    double largest = 0.0;
+    for (std::size_t k = 0; k < y.size(); ++k) largest = std::max(largest, std::abs(columns_[k][k]));
+    const double negligible = 16.0 * std::numeric_limits<double>::epsilon() * largest;
     for (std::size_t k = y.size(); k-- > 0;) {
       const T pivot = columns_[k][k];
-      y[k] = pivot == T(0) ? T(0) : y[k] / pivot;
+      y[k] = std::abs(pivot) <= negligible ? T(0) : y[k] / pivot;
       for (std::size_t i = 0; i < k; ++i) y[i] -= columns_[k][i] * y[k];
     }
     return y;
@@ -190,15 +196,19 @@ GmresResult gmres(const Comm& comm, const LinearOperator<T>& op, const LinearOpe
     if (norm <= tolerance) return result.status = GmresStatus::converged, result;
     const int columns = std::min(options.restart, options.max_iterations - result.iterations);
     if (columns <= 0) return result.status = GmresStatus::iteration_limit, result;
+    const std::vector<T> x_before(x.begin(), x.end());
     if (!run_cycle<T>(comm, op, preconditioner, r, norm, target, columns, space, x, result.iterations))
       return result.status = GmresStatus::not_finite, result;
     const double previous = norm;
     norm = update_residual();
-    if (norm > tolerance && norm > 0.999 * previous) {
-      result.relative_residual = norm / rhs_norm;
-      result.status = std::isfinite(norm) ? GmresStatus::stagnated : GmresStatus::not_finite;
-      return result;
+    if (norm < previous) {
+      if (norm <= tolerance || norm <= stagnation * previous) continue;
+    } else {
+      std::copy(x_before.begin(), x_before.end(), x.begin());
     }
+    result.relative_residual = std::min(norm, previous) / rhs_norm;
+    result.status = std::isfinite(norm) ? GmresStatus::stagnated : GmresStatus::not_finite;
+    return result;
   }
 }
 

@@ -1,5 +1,7 @@
 #include "core/mesh/airfoil_file.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -20,7 +22,7 @@ using Point = Vec<double, 2>;
 constexpr std::size_t minimum_points = 10;
 constexpr double chord_tolerance = 0.01;       // of leading edge, chord and trailing-edge gap, chords
 constexpr double repetition_tolerance = 1e-9;  // of points, chords
-constexpr double cusp_tolerance = 0.01;  // interpolation error of a trailing-edge angle of zero, radians
+constexpr double cusp_tolerance = 0.03;  // interpolation error of a trailing-edge angle of zero, radians
 
 // A point of the file and the line it stands on.
 struct Ordinate {
@@ -102,12 +104,12 @@ void check_chord(const std::vector<Ordinate>& points, const std::string& file) {
   for (const Ordinate* end : {&points.front(), &points.back()})
     if (std::abs(end->position[0] - 1.0) > chord_tolerance)
       refuse(file, end->line,
-             "x = " + std::to_string(end->position[0]) +
+             "x = " + fmt::format("{:g}", end->position[0]) +
                  " where the trailing edge, x = 1 within 1 %, is expected; order the points from "
                  "the upper trailing edge over the leading edge to the lower trailing edge, in chords");
   if (std::abs(nose) > chord_tolerance)
     refuse(file, points[foremost(points)].line,
-           "leading edge at x = " + std::to_string(nose) + "; it must lie at x = 0 within 1 % chord");
+           "leading edge at x = " + fmt::format("{:g}", nose) + "; it must lie at x = 0 within 1 % chord");
   if (distance(points.front(), points.back()) > chord_tolerance)
     refuse(file, points.back().line,
            "trailing edge open by more than 1 % chord; close it, the mesh needs a sharp edge");
@@ -220,7 +222,7 @@ Airfoil read_airfoil(std::istream& input, const std::string& name) {
   });
   if (airfoil.trailing_edge_angle() < -cusp_tolerance)
     throw InputError(name + ": the surfaces cross next to the trailing edge (angle " +
-                     std::to_string(airfoil.trailing_edge_angle()) + " rad); correct the last points");
+                     fmt::format("{:.3g}", airfoil.trailing_edge_angle()) + " rad); correct the last points");
   return airfoil;
 }
 

@@ -187,9 +187,9 @@ AnyMesh read_cgns(const std::filesystem::path& path) {
   const CgnsFile file = CgnsFile::open(path);
   const BaseSize size = read_base(file);
   if (size.cell_dim == 2) return checked(read_zones<2>(file, size.physical_dim), file.name());
-  MultiblockMesh<3> mesh = read_zones<3>(file, size.physical_dim);
+  MultiblockMesh<3> mesh = checked(read_zones<3>(file, size.physical_dim), file.name());
   if (auto plane = collapse_to_2d(mesh, file.name())) return checked(std::move(*plane), file.name());
-  return checked(std::move(mesh), file.name());
+  return mesh;
 }
 
 }  // namespace wingbeat

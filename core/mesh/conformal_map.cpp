@@ -1,5 +1,7 @@
 #include "core/mesh/conformal_map.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -92,10 +94,10 @@ ConformalMap::ConformalMap(const Airfoil& airfoil, int around) : fourier_(around
   last_correction_ = 2.0 * pi;
   while (last_correction_ > angle_tolerance) {
     if (++iterations_ > maximum_iterations)
-      throw InputError("section " + airfoil.name() +
-                       ": the map to a circle does not converge (last correction " +
-                       std::to_string(last_correction_) + " rad after " + std::to_string(maximum_iterations) +
-                       " iterations); smooth the ordinates, or use less camber or thickness");
+      throw InputError(fmt::format(
+          "section {}: the map to a circle does not converge (last correction {:.1e} rad after {} "
+          "iterations); smooth the ordinates, or use less camber or thickness",
+          airfoil.name(), last_correction_, maximum_iterations));
     const std::vector<double> target = conjugate_angles(curve, fourier, state);
     double correction = 0.0;
     for (std::size_t j = 0; j < target.size(); ++j)

@@ -1,5 +1,7 @@
 #include "core/mesh/conformal_omesh.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -23,9 +25,9 @@ void check(const OmeshOptions& options) {
   if (options.normal < 4)
     refuse("number of cells normal to the wall", std::to_string(options.normal), "at least 4");
   if (!(options.farfield_chords > 1.0) || !std::isfinite(options.farfield_chords))
-    refuse("far-field radius", std::to_string(options.farfield_chords), "more than 1 chord");
+    refuse("far-field radius", fmt::format("{:g}", options.farfield_chords), "more than 1 chord");
   if (options.stretching && !(*options.stretching > 0.0 && std::isfinite(*options.stretching)))
-    refuse("stretching", std::to_string(*options.stretching), "positive");
+    refuse("stretching", fmt::format("{:g}", *options.stretching), "positive");
   if (options.blocks < 1) refuse("number of blocks", std::to_string(options.blocks), "at least 1");
 }
 

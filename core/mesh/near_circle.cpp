@@ -1,5 +1,7 @@
 #include "core/mesh/near_circle.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -87,10 +89,10 @@ void NearCircle::check_star_shaped() const {
   for (std::size_t i = 0; i < table_size; ++i) {
     if (at(table_angle(i)).angle_slope > 0.0) continue;
     const auto position = airfoil_.at(curve_parameter(table_angle(i))).position;
-    throw InputError("section " + airfoil_.name() +
-                     ": cannot be mapped to a circle, its surface folds at x = " +
-                     std::to_string(position[0]) + ", y = " + std::to_string(position[1]) +
-                     "; smooth the ordinates there, or use less camber or thickness");
+    throw InputError(
+        fmt::format("section {}: cannot be mapped to a circle, its surface folds at x = {:.4g}, y = {:.4g}; "
+                    "smooth the ordinates there, or use less camber or thickness",
+                    airfoil_.name(), position[0], position[1]));
   }
 }
 

@@ -1,3 +1,4 @@
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 
@@ -43,7 +44,7 @@ TEST_F(CommandLineOfProgram, OutputFolderIsNamedByCaseAndVerb) {
   EXPECT_EQ(run({"mesh", "wings/small.toml"}).exit_code, 0);
   EXPECT_EQ(run({"mesh", "wings/naca/case.toml"}).exit_code, 0);
   EXPECT_EQ(run({"mesh", "wings/small.toml", "--output", "results/here"}).exit_code, 0);
-  const std::set<std::string> expected{"case.toml", "log.txt", "mesh.cgns", "result.json"};
+  const std::set<std::string> expected{"case.toml", "log.txt", "mesh.cgns", "mesh.csv", "result.json"};
   for (const std::string output : {"small-mesh", "naca-mesh", "results/here"})
     EXPECT_EQ(files(output), expected);
 }
@@ -66,6 +67,7 @@ TEST_F(CommandLineOfProgram, DryRunPrintsTheResolvedCaseAndWritesNothing) {
   EXPECT_EQ(dry.exit_code, 0);
   expect_in("mach = 0.7", dry.output);
   expect_in("# command line", dry.output);
+  expect_in("# 256 cells in 1 blocks", dry.output);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "dry"));
 }
 
@@ -86,6 +88,30 @@ TEST_F(CommandLineOfProgram, ReferencePageIsCurrent) {
   std::ifstream stream(WINGBEAT_SOURCE_DIR "/docs/case-reference.md");
   const std::string kept{std::istreambuf_iterator<char>(stream), {}};
   EXPECT_EQ(page.output, kept) << "run: wingbeat reference --markdown > docs/case-reference.md";
+}
+
+TEST_F(CommandLineOfProgram, PlotDrawsWhatAFolderHolds) {
+  if (std::system(
+          "(python3 -c 'import matplotlib' || /usr/bin/python3 -c 'import matplotlib') 2> /dev/null") != 0)
+    GTEST_SKIP() << "no matplotlib";
+  ASSERT_EQ(run({"mesh", "case.toml", "--output", "out"}).exit_code, 0);
+  write("out/surface.csv",
+        "instance,phase,x,y,cp\n0,0.0,1,0,0.2\n0,0.0,0,0,1\n1,2.1,1,0,0.2\n1,2.1,0,0,0.9\n");
+  write("out/pk.csv",
+        "branch,reduced_velocity,frequency,damping\n1,1,0.5,-0.1\n1,2,0.6,0.1\n2,1,1.1,-0.2\n2,2,1,-0.3\n");
+  write("out/history.csv",
+        "stage,iteration,flow,structure\nsteady,0,1,\nsteady,1,1e-5,\nflutter,0,1e-3,1e-2\n");
+  const auto plot = run({"plot", "out"});
+  EXPECT_EQ(plot.exit_code, 0) << plot.errors;
+  for (const std::string name : {"mesh.png", "surface.png", "pk.png", "history.png"}) {
+    expect_in(name, plot.output);
+    EXPECT_TRUE(files("out").contains(name));
+  }
+}
+
+TEST_F(CommandLineOfProgram, PlotRefusesAFolderWithoutTables) {
+  write("empty/result.json", "{}");
+  EXPECT_EQ(run({"plot", "empty"}).exit_code, 2);
 }
 
 TEST_F(CommandLineOfProgram, PlotRefusesAMissingFolder) {

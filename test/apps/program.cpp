@@ -44,7 +44,10 @@ ProgramRun Program::run(const std::vector<std::string>& arguments, int ranks) co
   std::string command = "cd " + quoted(folder_.string()) + " && ";
   if (ranks > 0) command += WINGBEAT_MPIEXEC " -n " + std::to_string(ranks) + " ";
   command += quoted(WINGBEAT_PROGRAM);
-  for (const auto& argument : arguments) command += " " + quoted(argument);
+  for (const auto& argument : arguments) {
+    command += ' ';
+    command += quoted(argument);
+  }
   command += " > " + quoted(output.string()) + " 2> " + quoted(errors.string()) + " < /dev/null";
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(output), read_text(errors)};

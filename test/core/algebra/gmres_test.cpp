@@ -57,8 +57,8 @@ TEST(Gmres, SolvesRealAndComplexSystemsAndTheirTransposes) {
 struct FourEigenvalues {
   Comm comm;
   std::size_t n = 5 + comm.rank();
-  LambdaOperator<double> op{n, [](std::span<const double> x, std::span<double> y) {
-                              for (std::size_t i = 0; i < x.size(); ++i) y[i] = double(1 + i % 4) * x[i];
+  LambdaOperator<double> op{n, [](std::span<const double> in, std::span<double> out) {
+                              for (std::size_t i = 0; i < in.size(); ++i) out[i] = double(1 + i % 4) * in[i];
                             }};
   IdentityOperator<double> identity{n};
   std::vector<double> b = std::vector<double>(n, 1.0);

@@ -141,7 +141,7 @@ void expect_gmres_converges(bool transpose) {
   op.apply(exact, b);
   const auto result = gmres<T>(s.comm, op, m, b, x, {.relative_tolerance = 1e-12});
   EXPECT_EQ(result.status, GmresStatus::converged);
-  EXPECT_LE(result.iterations, s.comm.size() == 1 ? 1 : 20);
+  EXPECT_LE(result.iterations, s.comm.size() == 1 ? 1 : 30);
   EXPECT_LT(distance(s.comm, x, exact), 1e-10 * norm(s.comm, exact));
 }
 
@@ -178,7 +178,9 @@ TEST(Schwarz, ASingularMatrixOnOneRankIsRefusedOnAll) {
     message = error.what();
   }
   EXPECT_NE(message.find("rank " + std::to_string(s.comm.rank())), std::string::npos) << message;
-  if (s.comm.is_root()) EXPECT_NE(message.find("singular"), std::string::npos) << message;
+  if (s.comm.is_root()) {
+    EXPECT_NE(message.find("singular"), std::string::npos) << message;
+  }
   EXPECT_FALSE(s.schwarz.is_factored());
 }
 

@@ -180,14 +180,16 @@ void expect_same_shape(const MultiblockMesh<2>& mesh, const MultiblockMesh<2>& e
 
 TEST(CgnsMesh, CollapsesOneCellBetweenSymmetryPlanesHoweverItLies) {
   const TemporaryFolder folder;
-  for (const MultiblockMesh<2>& plane : {ring(8, 3), row_of_blocks<2>(3, {3, 2})})
-    for (int span : {0, 1, 2})
-      for (const Orientation<3>& o : all_orientations<3>()) {
-        write_cgns(reoriented(extruded(plane, span, 0.25), 0, o), folder / "thick.cgns");
-        expect_same_shape(read_back<2>(folder / "thick.cgns"), plane);
-      }
-  write_cgns(extruded(ring(8, 3), 2, 0.25), folder / "thick.cgns");
-  EXPECT_TRUE(same(read_back<2>(folder / "thick.cgns"), ring(8, 3)));
+  const MultiblockMesh<2> plane = row_of_blocks<2>(2, {3, 2});
+  const MultiblockMesh<3> thick = extruded(plane, 2, 0.25);
+  for (const Orientation<3>& o : all_orientations<3>()) {
+    write_cgns(reoriented(thick, 0, o), folder / "thick.cgns");
+    expect_same_shape(read_back<2>(folder / "thick.cgns"), plane);
+  }
+  for (int span : {0, 1, 2}) {
+    write_cgns(extruded(ring(8, 3), span, 0.25), folder / "thick.cgns");
+    EXPECT_TRUE(same(read_back<2>(folder / "thick.cgns"), ring(8, 3)));
+  }
 }
 
 TEST(CgnsMesh, RefusesATaperedSpan) {
@@ -233,20 +235,39 @@ TEST(CgnsMesh, DropsAConstantThirdCoordinate) {
   expect_contains(refusal(raw, folder), "zone 'raw': is a surface (CellDim 2) in space");
 }
 
-TEST(CgnsMesh, ReadsRangesOfFaceCentres) {
+TEST(CgnsMesh, ReadsRangesOfEdgeCentres) {
   const TemporaryFolder folder;
   RawFile raw = raw_square();
-  raw.patches[0].range = {1, 1, 1, 2};
-  raw.patches[0].location = IFaceCenter;
-  raw.patches[1].range = {3, 1, 3, 2};
-  raw.patches[1].location = IFaceCenter;
-  raw.patches[3].range = {1, 3, 2, 3};
-  raw.patches[3].location = JFaceCenter;
+  const std::vector<std::vector<cgsize_t>> ranges{{1, 1, 1, 2}, {3, 1, 3, 2}, {1, 1, 2, 1}, {1, 3, 2, 3}};
+  for (std::size_t p = 0; p < 4; ++p) raw.patches[p].range = ranges[p], raw.patches[p].location = EdgeCenter;
   raw.write(folder / "raw.cgns");
   const MultiblockMesh<2> mesh = read_back<2>(folder / "raw.cgns");
-  EXPECT_EQ(mesh.zones[0].patches[0].side, (Side{0, 0}));
-  EXPECT_EQ(mesh.zones[0].patches[1].side, (Side{0, 1}));
-  EXPECT_EQ(mesh.zones[0].patches[3].side, (Side{1, 1}));
+  for (int p = 0; p < 4; ++p) EXPECT_EQ(mesh.zones[0].patches[p].side, (Side{p / 2, p % 2}));
+}
+
+TEST(CgnsMesh, ReadsRangesOfFaceCentres) {
+  const TemporaryFolder folder;
+  const auto with_wall = [&](std::array<cgsize_t, 6> range, GridLocation_t location, PointSetType_t points) {
+    write_cgns(extruded(ring(8, 3), 2, 0.25), folder / "ring.cgns");
+    edit(folder / "ring.cgns", [&](int fn) {
+      ASSERT_EQ(cg_goto(fn, 1, "Zone_t", 1, "ZoneBC_t", 1, "end"), CG_OK);
+      ASSERT_EQ(cg_delete_node("wall"), CG_OK);
+      int n = 0;
+      ASSERT_EQ(cg_boco_write(fn, 1, 1, "body", BCWall, points, 2, range.data(), &n), CG_OK);
+      if (location != Vertex) {
+        ASSERT_EQ(cg_boco_gridlocation_write(fn, 1, 1, n, location), CG_OK);
+      }
+    });
+    return message_of([&] { read_mesh(folder / "ring.cgns"); });
+  };
+  EXPECT_EQ(with_wall({1, 1, 1, 8, 1, 1}, FaceCenter, PointRange), "");
+  EXPECT_EQ(with_wall({1, 1, 1, 8, 1, 1}, JFaceCenter, PointRange), "");
+  EXPECT_EQ(with_wall({1, 1, 1, 8, 1, 1}, Vertex, ElementRange), "");
+  expect_contains(
+      with_wall({1, 1, 1, 4, 1, 1}, FaceCenter, PointRange),
+      "zone 'ring', patch 'body': its range (1, 1, 1) to (4, 1, 1) of faces may lie on more than one side");
+  expect_contains(with_wall({1, 1, 1, 8, 1, 1}, KFaceCenter, PointRange),
+                  "zone 'ring', side j-low, cell (1, 1, 1): no boundary condition");
 }
 
 TEST(CgnsMesh, ResolvesFamilies) {
@@ -355,7 +376,7 @@ TEST(CgnsMesh, RefusesContradictingConnections) {
   };
   expect_contains(refuse_connection({1, 1, 1, 3}, {3, 1, 3, 3}, {1, 2}, "tail"),
                   "zone 'raw', interface 'link': there is no donor zone 'tail'");
-  expect_contains(refuse_connection({1, 1, 1, 3}, {3, 1, 3, 2}, {1, 2}, "raw"),
+  expect_contains(refuse_connection({1, 1, 1, 3}, {3, 1, 3, 3}, {1, -2}, "raw"),
                   "interface 'link': its Transform does not carry PointRange to PointRangeDonor");
   expect_contains(refuse_connection({1, 1, 1, 1}, {3, 1, 3, 1}, {1, 2}, "raw"),
                   "interface 'link': its PointRange (1, 1) to (1, 1) is not a face on a side");

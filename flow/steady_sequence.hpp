@@ -1,0 +1,28 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "flow/flow_level.hpp"
+#include "flow/pseudo_transient.hpp"
+
+namespace wingbeat {
+
+// The same flow on a sequence of meshes, coarsest first.
+template <int Dim>
+using FlowLevels = std::vector<std::unique_ptr<FlowLevel<Dim>>>;
+
+// Return false to stop early. `level` counts from the coarsest, 0.
+using SequenceObserver = std::function<bool(std::size_t level, const PseudoTransientIteration&)>;
+
+// Steady flow by grid sequencing: each mesh starts from the solution of the coarser one, the first
+// from uniform flow, or all from `levels.back()->w` alone where that is given already. Coarse
+// meshes are solved to 1e-6 or the tolerance, whichever is larger. Leaves every level's w and factors.
+// The result is that of the finest mesh; a coarse mesh that does not converge is skipped.
+// Collective.
+template <int Dim>
+PseudoTransientResult solve_steady(FlowLevels<Dim>& levels, const MotionState& motion,
+                                   const PseudoTransientOptions& options, const SequenceObserver& observer = {});
+
+}  // namespace wingbeat

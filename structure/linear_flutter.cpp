@@ -1,0 +1,162 @@
+#include "structure/linear_flutter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/io/error.hpp"
+#include "structure/harmonic_motion.hpp"
+#include "structure/typical_section.hpp"
+
+namespace wingbeat {
+namespace {
+
+constexpr int max_equilibria = 8;
+constexpr double settled_speed = 1e-4;  // relative change of V that ends the repetition
+
+// The section at rest at the speed given, or undeflected where it carries no load.
+template <int Dim>
+AeroelasticState section_at_rest(FlowLevel<Dim>& level, const StructureModel& model,
+                                 const SectionKinematics& kinematics, std::optional<double> reduced_velocity,
+                                 const LinearFlutterOptions& options) {
+  if (reduced_velocity) return static_equilibrium<Dim>(level, model, kinematics, *reduced_velocity, options);
+  return {level.w, std::vector<double>(4, 0.0), 0.0, 1.0};
+}
+
+const FlutterRoot* lowest_destabilising(const std::vector<FlutterRoot>& roots) {
+  for (const FlutterRoot& root : roots)
+    if (root.is_destabilising()) return &root;
+  return nullptr;
+}
+
+}  // namespace
+
+bool is_deflected(const Loads<double>& loads) {
+  return std::max(std::abs(loads.force_y), std::abs(loads.moment)) > 1e-9;
+}
+
+template <int Dim>
+LinearizedSection<Dim>::LinearizedSection(FlowLevel<Dim>& level, const SectionKinematics& kinematics,
+                                          AeroelasticState rest, double tolerance)
+    : kinematics_(kinematics),
+      rest_(std::move(rest)),
+      solver_(std::make_shared<SchwarzSolver<std::complex<double>>>(level.comm(), level.subdomain, state_size<Dim>)),
+      response_(level.steady, solver_, tolerance) {
+  const std::vector<MotionState> motion{kinematics_.motion(rest_.y, rest_.r)};
+  level.steady.linearize(rest_.w, motion, 0.0);
+}
+
+template <int Dim>
+Eigen::MatrixXcd LinearizedSection<Dim>::aerodynamic_matrix(double k) {
+  const HarmonicResponse response = response_.at(kappa(k));
+  constexpr double b = SectionKinematics::semichord;
+  Eigen::MatrixXcd q(2, 2);
+  q(0, plunge) = -b * response.plunge_loads[0];
+  q(1, plunge) = 2.0 * b * response.plunge_loads[1];
+  q(0, pitch) = -response.pitch_loads[0];
+  q(1, pitch) = 2.0 * response.pitch_loads[1];
+  return q;
+}
+
+template <int Dim>
+AeroelasticState LinearizedSection<Dim>::harmonic_state(const StructureModel& model, const TimeSpectral& time,
+                                                        const Eigen::VectorXcd& u_hat, double omega,
+                                                        double reduced_velocity) {
+  const HarmonicResponse response = response_.at(kappa(omega / (2.0 * reduced_velocity)));
+  AeroelasticState state;
+  state.omega = omega;
+  state.r = std::pow(reduced_velocity / kinematics_.reference_velocity, 2);
+  state.y = harmonic_states(model, time, u_hat, omega);
+  const std::complex<double> plunge_in_chords = SectionKinematics::semichord * u_hat[plunge];
+  for (int n = 0; n < time.instances(); ++n) {
+    for (std::size_t j = 0; j < 4; ++j) state.y[4 * static_cast<std::size_t>(n) + j] += rest_.y[j];
+    const std::complex<double> turn = std::polar(1.0, time.phase(n));
+    const auto plunge_turn = turn * plunge_in_chords, pitch_turn = turn * u_hat[pitch];
+    for (std::size_t i = 0; i < rest_.w.size(); ++i)
+      state.w.push_back(rest_.w[i] + (plunge_turn * response.plunge[i] + pitch_turn * response.pitch[i]).real());
+  }
+  return state;
+}
+
+template <int Dim>
+AeroelasticState static_equilibrium(FlowLevel<Dim>& level, const StructureModel& model,
+                                    const SectionKinematics& kinematics, double reduced_velocity,
+                                    const LinearFlutterOptions& options) {
+  AeroelasticState start{level.w, std::vector<double>(4, 0.0), 0.0,
+                         std::pow(reduced_velocity / kinematics.reference_velocity, 2)};
+  AeroelasticProblem<Dim> problem(level.steady, StructuralEquation(model, TimeSpectral(0)), kinematics, std::nullopt,
+                                  start, {level.solver, {}}, options.tolerances);
+  std::vector<double> u = problem.unknowns(start);
+  const NewtonResult result = newton(level.comm(), problem, u, options.newton);
+  ensure(result.status == SolveStatus::converged,
+         fmt::format("static equilibrium at V = {}: Newton ended with {}", reduced_velocity,
+                     to_string(result.status)));
+  return problem.state(u);
+}
+
+template <int Dim>
+AerodynamicTable sampled_matrix(LinearizedSection<Dim>& section, const LinearFlutterOptions& options) {
+  const auto [k_min, k_max] = options.reduced_frequency_range;
+  return tabulate([&](double k) { return section.aerodynamic_matrix(k); },
+                  spread_reduced_frequencies(k_min, k_max, options.samples));
+}
+
+template <int Dim>
+LinearFlutterSolution<Dim> solve_linear_flutter(FlowLevel<Dim>& coarse, FlowLevel<Dim>& fine,
+                                                const StructureModel& model, const SectionKinematics& kinematics,
+                                                const LinearFlutterOptions& options) {
+  const std::vector<MotionState> unmoved{{kinematics.mean_pitch, 0.0, 0.0}};
+  const bool deflects = is_deflected(fine.steady.loads(fine.w, unmoved)[0]);
+  LinearFlutterSolution<Dim> solution;
+
+  // All roots on the coarse level.
+  std::optional<AerodynamicTable> table;
+  std::optional<double> speed;
+  for (int repeat = 0; repeat < max_equilibria; ++repeat) {
+    LinearizedSection<Dim> section(coarse, kinematics, section_at_rest<Dim>(coarse, model, kinematics, speed, options),
+                                   options.tolerance);
+    table = sampled_matrix<Dim>(section, options);
+    solution.flutter.roots = scan_flutter_roots(model, *table);
+    const FlutterRoot* lowest = lowest_destabilising(solution.flutter.roots);
+    if (!lowest) return solution;
+    const bool settled = speed && std::abs(lowest->reduced_velocity - *speed) < settled_speed * *speed;
+    if (!deflects || settled) break;
+    speed = lowest->reduced_velocity;
+  }
+
+  // The candidates for the lowest on the fine level.
+  constexpr double margin = 1.2;
+  const double limit = margin * lowest_destabilising(solution.flutter.roots)->reduced_velocity;
+  for (int repeat = 0; repeat < max_equilibria; ++repeat) {
+    solution.section = std::make_unique<LinearizedSection<Dim>>(
+        fine, kinematics, section_at_rest<Dim>(fine, model, kinematics, speed, options), options.tolerance);
+    for (FlutterRoot& root : solution.flutter.roots)
+      if (root.is_destabilising() && root.reduced_velocity <= limit)
+        root = polish_flutter_root(
+            model, [&](double k) { return solution.section->aerodynamic_matrix(k); }, *table, root,
+            {.tolerance = 10.0 * options.tolerance});
+    std::sort(solution.flutter.roots.begin(), solution.flutter.roots.end(),
+              [](const FlutterRoot& a, const FlutterRoot& b) { return a.reduced_velocity < b.reduced_velocity; });
+    solution.flutter.root = *lowest_destabilising(solution.flutter.roots);
+    const double found = solution.flutter.root->reduced_velocity;
+    if (!deflects || std::abs(found - *speed) < settled_speed * found) break;
+    speed = found;
+  }
+  return solution;
+}
+
+template class LinearizedSection<2>;
+template AeroelasticState static_equilibrium<2>(FlowLevel<2>&, const StructureModel&, const SectionKinematics&,
+                                                double, const LinearFlutterOptions&);
+template AerodynamicTable sampled_matrix<2>(LinearizedSection<2>&, const LinearFlutterOptions&);
+template LinearFlutterSolution<2> solve_linear_flutter<2>(FlowLevel<2>&, FlowLevel<2>&, const StructureModel&,
+                                                           const SectionKinematics&, const LinearFlutterOptions&);
+template class LinearizedSection<3>;
+template AeroelasticState static_equilibrium<3>(FlowLevel<3>&, const StructureModel&, const SectionKinematics&,
+                                                double, const LinearFlutterOptions&);
+template AerodynamicTable sampled_matrix<3>(LinearizedSection<3>&, const LinearFlutterOptions&);
+template LinearFlutterSolution<3> solve_linear_flutter<3>(FlowLevel<3>&, FlowLevel<3>&, const StructureModel&,
+                                                           const SectionKinematics&, const LinearFlutterOptions&);
+
+}  // namespace wingbeat

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "flow/flow_level.hpp"
+#include "flow/frequency_response.hpp"
+#include "structure/aeroelastic_problem.hpp"
+#include "structure/flutter_roots.hpp"
+#include "structure/section_kinematics.hpp"
+#include "structure/structure_model.hpp"
+
+namespace wingbeat {
+
+// The flow about a section that rests in (static) equilibrium, linearized for small motion: gives
+// the aerodynamic matrix Q(k) and the flow that goes with a motion (eq:aerodynamic-matrix).
+template <int Dim>
+class LinearizedSection {
+ public:
+  // `rest`: one instance w, y of the section at rest. Collective.
+  LinearizedSection(FlowLevel<Dim>& level, const SectionKinematics& kinematics, AeroelasticState rest,
+                    double tolerance);
+
+  const AeroelasticState& rest() const { return rest_; }
+  // f = Q (h/b, alpha), f = (-C_l, 2 C_m). Collective.
+  Eigen::MatrixXcd aerodynamic_matrix(double k);
+  // States of all instances in small motion u^ e^{i theta} about rest. Collective.
+  AeroelasticState harmonic_state(const StructureModel& model, const TimeSpectral& time,
+                                  const Eigen::VectorXcd& u_hat, double omega, double reduced_velocity);
+  // The factors of the last frequency solved at.
+  std::shared_ptr<SchwarzSolver<std::complex<double>>> factors() const { return solver_; }
+  int factorization_count() const { return response_.factorization_count(); }
+
+ private:
+  double kappa(double k) const { return 2.0 * k * kinematics_.flow_speed; }
+
+  SectionKinematics kinematics_;
+  AeroelasticState rest_;
+  std::shared_ptr<SchwarzSolver<std::complex<double>>> solver_;
+  FrequencyResponse<Dim> response_;
+};
+
+struct LinearFlutterOptions {
+  std::array<double, 2> reduced_frequency_range{0.02, 0.6};
+  int samples = 12;
+  double tolerance = 1e-8;         // of the linear solves behind Q
+  NewtonOptions newton{};          // of static equilibrium
+  AeroelasticTolerances tolerances{};
+};
+
+struct LinearFlutter {
+  std::optional<FlutterRoot> root;  // the lowest destabilising one; nothing if there is none in range
+  std::vector<FlutterRoot> roots;   // all, by speed
+};
+
+// True where the steady loads would move the section off its springs' neutral point.
+bool is_deflected(const Loads<double>& loads);
+
+// Static aeroelastic equilibrium at reduced velocity V: w, y with R = S = 0, started from the
+// level's steady state and `y`. Throws InternalError where Newton's method fails. Collective.
+template <int Dim>
+AeroelasticState static_equilibrium(FlowLevel<Dim>& level, const StructureModel& model,
+                                    const SectionKinematics& kinematics, double reduced_velocity,
+                                    const LinearFlutterOptions& options);
+
+// Q(k) sampled over the range of the options.
+template <int Dim>
+AerodynamicTable sampled_matrix(LinearizedSection<Dim>& section, const LinearFlutterOptions& options);
+
+// Flutter by the linearized frequency domain, from coarse to fine: all roots are sought with a table
+// of Q(k) on `coarse`, those near the lowest destabilising one are polished with Q of `fine` (the two
+// may be the same). Where the section carries lift, equilibrium and root are repeated until the
+// speed at which it rests is the speed at which it flutters. Both levels are steady solutions.
+template <int Dim>
+struct LinearFlutterSolution {
+  LinearFlutter flutter;
+  std::unique_ptr<LinearizedSection<Dim>> section;  // of the fine level, last solved at the root
+};
+template <int Dim>
+LinearFlutterSolution<Dim> solve_linear_flutter(FlowLevel<Dim>& coarse, FlowLevel<Dim>& fine,
+                                                const StructureModel& model, const SectionKinematics& kinematics,
+                                                const LinearFlutterOptions& options);
+
+}  // namespace wingbeat
