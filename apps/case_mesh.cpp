@@ -1,12 +1,32 @@
 #include "apps/case_mesh.hpp"
 
+#include <algorithm>
+
+#include "core/io/error.hpp"
 #include "core/mesh/airfoil.hpp"
+#include "core/mesh/coarsen.hpp"
 #include "core/mesh/conformal_omesh.hpp"
 #include "core/mesh/cut_blocks.hpp"
 #include "core/mesh/mesh_check.hpp"
 #include "core/mesh/mesh_file.hpp"
 
 namespace wingbeat {
+
+namespace {
+
+MultiblockMesh<2> built_in_mesh(const MeshSettings& settings, const std::array<int, 2>& cells,
+                                 std::optional<double> stretching) {
+  const Airfoil airfoil = make_airfoil(*settings.airfoil);
+  MultiblockMesh<2> mesh = conformal_omesh(airfoil, {.around = cells[0],
+                                                     .normal = cells[1],
+                                                     .farfield_chords = settings.farfield_chords,
+                                                     .stretching = stretching,
+                                                     .blocks = settings.blocks});
+  validate(mesh, "mesh.airfoil = \"" + airfoil.name() + "\"");
+  return mesh;
+}
+
+}  // namespace
 
 AnyMesh make_case_mesh(const MeshSettings& settings) {
   if (settings.file) {
@@ -18,14 +38,43 @@ AnyMesh make_case_mesh(const MeshSettings& settings) {
         mesh);
     return mesh;
   }
-  const Airfoil airfoil = make_airfoil(*settings.airfoil);
-  MultiblockMesh<2> mesh = conformal_omesh(airfoil, {.around = settings.cells[0],
-                                                     .normal = settings.cells[1],
-                                                     .farfield_chords = settings.farfield_chords,
-                                                     .stretching = settings.stretching,
-                                                     .blocks = settings.blocks});
-  validate(mesh, "mesh.airfoil = \"" + airfoil.name() + "\"");
-  return mesh;
+  return built_in_mesh(settings, settings.cells, settings.stretching);
 }
+
+MultiblockMesh<2> make_plane_mesh(const MeshSettings& settings) {
+  AnyMesh mesh = make_case_mesh(settings);
+  if (auto* plane = std::get_if<MultiblockMesh<2>>(&mesh)) return std::move(*plane);
+  throw InputError(
+      "mesh.file: the mesh is three-dimensional; this verb solves plane flow: give a 2-D mesh, or one a single cell "
+      "thick between two symmetry planes");
+}
+
+template <int Dim>
+std::vector<MultiblockMesh<Dim>> mesh_sequence(const MeshSettings& settings, const MultiblockMesh<Dim>& mesh,
+                                               int coarse_levels) {
+  constexpr int least_around = 48, least_normal = 12;
+  std::vector<MultiblockMesh<Dim>> meshes{mesh};
+  std::array<int, 2> cells = settings.cells;
+  std::optional<double> stretching = settings.stretching;
+  for (int level = 0; level < coarse_levels; ++level) {
+    if (settings.airfoil) {
+      if constexpr (Dim == 2) {
+        cells = {cells[0] / 4 * 2, cells[1] / 4 * 2};
+        if (cells[0] < least_around || cells[1] < least_normal || cells[0] < 4 * settings.blocks) break;
+        if (stretching) *stretching *= *stretching;
+        meshes.push_back(built_in_mesh(settings, cells, stretching));
+      }
+    } else {
+      auto coarse = coarsened(meshes.back(), least_normal);
+      if (!coarse) break;
+      meshes.push_back(std::move(*coarse));
+    }
+  }
+  std::reverse(meshes.begin(), meshes.end());
+  return meshes;
+}
+
+template std::vector<MultiblockMesh<2>> mesh_sequence<2>(const MeshSettings&, const MultiblockMesh<2>&, int);
+template std::vector<MultiblockMesh<3>> mesh_sequence<3>(const MeshSettings&, const MultiblockMesh<3>&, int);
 
 }  // namespace wingbeat

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "core/mesh/cgns_mesh.hpp"
 #include "core/mesh/mesh_settings.hpp"
 
@@ -9,5 +11,15 @@ namespace wingbeat {
 // exceeds its zones), checked. std::visit settles
 // its dimension. Every rank makes it for itself. Throws InputError.
 AnyMesh make_case_mesh(const MeshSettings& settings);
+
+// The same where only plane flow is solved: a 3-D mesh is refused.
+MultiblockMesh<2> make_plane_mesh(const MeshSettings& settings);
+
+// `mesh` and up to `coarse_levels` coarser ones, coarsest first, with the same zones: the built-in
+// mesh made with half the cells each way, a file's mesh at every second node while its cell counts
+// allow. None is coarser than grid sequencing profits from.
+template <int Dim>
+std::vector<MultiblockMesh<Dim>> mesh_sequence(const MeshSettings& settings, const MultiblockMesh<Dim>& mesh,
+                                               int coarse_levels);
 
 }  // namespace wingbeat

@@ -140,7 +140,7 @@ int run_case(const Comm& comm, const CommandLine& command) {
     failure = {exit_internal, fmt::format("internal error, please report it: {}", error.what())};
   }
 
-  constexpr double patience_seconds = 10.0;
+  constexpr double patience_seconds = 5.0;
   if (agreement.all_failed(patience_seconds)) {
     if (comm.is_root()) {
       fmt::print(stderr, "wingbeat: {}\n", failure.message);

@@ -6,6 +6,15 @@ namespace wingbeat {
 
 std::span<const Verb> verbs() {
   static const std::array table{
+      Verb{"steady", "steady flow and its loads", {"mesh", "partition", "flow", "pitch", "solver"}, run_steady},
+      Verb{"flutter",
+           "flutter boundary: the speed and frequency at which small motion neither grows nor decays",
+           {"mesh", "partition", "flow", "pitch", "time", "structure", "flutter", "solver"},
+           run_flutter},
+      Verb{"pk",
+           "aerodynamic matrix Q(k), and frequency and damping against speed by the p-k method",
+           {"mesh", "partition", "flow", "pitch", "structure", "flutter", "pk", "solver"},
+           run_pk},
       Verb{"mesh", "write the mesh as CGNS and print its quality", {"mesh"}, run_mesh},
       Verb{"partition",
            "print what a partition for any number of ranks would cost",

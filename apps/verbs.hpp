@@ -12,6 +12,9 @@ namespace wingbeat {
 // A recipe computes what its verb promises, writes its files into context.output (rank 0) and
 // fills context.result. It is collective. It returns how the solution ended; the caller writes
 // result.json and turns the status into the exit code. Faults of the input are InputError.
+SolveStatus run_steady(Context& context);
+SolveStatus run_flutter(Context& context);
+SolveStatus run_pk(Context& context);
 SolveStatus run_mesh(Context& context);
 SolveStatus run_partition(Context& context);
 

@@ -62,8 +62,8 @@ FlowLevel<Dim>::FlowLevel(const Comm& comm, MultiblockMesh<Dim> level_mesh, cons
 template <int Dim>
 std::string mesh_size_text(const MultiblockMesh<Dim>& mesh) {
   if (mesh.zones.size() > 1) return fmt::format("{} cells in {} zones", mesh.cell_count(), mesh.zones.size());
-  std::string text = std::to_string(mesh.zones[0].cells[0]);
-  for (std::size_t d = 1; d < Dim; ++d) text += "x" + std::to_string(mesh.zones[0].cells[d]);
+  std::string text = fmt::format("{}", mesh.zones[0].cells[0]);
+  for (std::size_t d = 1; d < Dim; ++d) text += fmt::format("x{}", mesh.zones[0].cells[d]);
   return text;
 }
 

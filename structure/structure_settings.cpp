@@ -1,5 +1,7 @@
 #include "structure/structure_settings.hpp"
 
+#include "structure/typical_section.hpp"
+
 namespace wingbeat {
 
 TypicalSection StructureSettings::section() const {

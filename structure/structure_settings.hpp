@@ -3,9 +3,10 @@
 #include <array>
 
 #include "core/io/settings.hpp"
-#include "structure/typical_section.hpp"
 
 namespace wingbeat {
+
+struct TypicalSection;
 
 // [structure]: the pitch-plunge section, in semichords and 1/omega_alpha.
 struct StructureSettings {

@@ -59,8 +59,10 @@ struct NewtonResult {
   double residual_norm = 0.0;
 };
 
-// Return false to stop early (a signal, a time limit): the status is then `interrupted`.
-using NewtonObserver = std::function<bool(const NewtonIteration&, std::span<const double> u)>;
+// Is shown the iterate u and F(u); returns false to stop early (a signal, a time limit): the status
+// is then `interrupted`.
+using NewtonObserver =
+    std::function<bool(const NewtonIteration&, std::span<const double> u, std::span<const double> f)>;
 
 // Inexact Newton with a backtracking line search on |F|, Eisenstat-Walker forcing and lazy
 // refactorization; u holds the start on entry and the solution on return.

@@ -9,7 +9,7 @@ namespace wingbeat {
 // [solver]: how the equations are solved, and how far.
 struct SolverSettings {
   std::string method = "coupled";
-  double steady_tolerance = 1e-12;
+  double steady_tolerance = 1e-11;
   double flow_tolerance = 1e-10;
   double structure_tolerance = 1e-9;
   int max_steady_iterations = 200;

@@ -43,7 +43,7 @@ ProgramRun Program::run(const std::vector<std::string>& arguments, int ranks) co
   const fs::path output = folder_ / ".output", errors = folder_ / ".errors";
   std::string command = "cd " + quoted(folder_.string()) + " && ";
   if (ranks > 0) command += WINGBEAT_MPIEXEC " -n " + std::to_string(ranks) + " ";
-  command += quoted(WINGBEAT_PROGRAM);
+  command += quoted(program_);
   for (const auto& argument : arguments) {
     command += ' ';
     command += quoted(argument);

@@ -33,6 +33,7 @@ class Program : public ::testing::Test {
   void expect_refused(const ProgramRun& run, const std::string& output, const std::string& message) const;
 
   std::filesystem::path folder_;
+  std::string program_ = WINGBEAT_PROGRAM;
 };
 
 void expect_in(const std::string& part, const std::string& whole);

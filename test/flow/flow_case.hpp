@@ -13,7 +13,7 @@
 
 namespace wingbeat::testing {
 
-// A small flow problem on the world communicator.
+// A small flow problem, on the world communicator unless another is given.
 template <int Dim>
 struct FlowCase {
   Comm comm;
@@ -22,8 +22,9 @@ struct FlowCase {
   FlowDomain<Dim> domain;
   FlowModel<Dim, double> model;
 
-  FlowCase(MultiblockMesh<Dim> m, double mach, double angle_deg, double smoothing = 1.0)
-      : mesh(std::move(m)),
+  FlowCase(MultiblockMesh<Dim> m, double mach, double angle_deg, double smoothing = 1.0, const Comm& ranks = Comm())
+      : comm(ranks),
+        mesh(std::move(m)),
         local(build_local_mesh<Dim>(mesh, partition_mesh<Dim>(mesh, comm.size(), {}), comm.rank())),
         domain(comm, local, {{{0.2, 0.0}}}),
         model{{1.4, mach, std::cos(angle_deg * std::numbers::pi / 180), std::sin(angle_deg * std::numbers::pi / 180)},
@@ -47,7 +48,8 @@ MultiblockMesh<Dim> with_all_boundaries(MultiblockMesh<Dim> mesh, BoundaryType t
   return mesh;
 }
 
-// A box of cells bent smoothly out of shape, far field on every side.
+// The unit box of cells bent smoothly out of shape (in 3-D: every face warped), far field on every
+// side. The displacement is periodic: opposite sides are bent alike and the volume remains 1.
 template <int Dim>
 MultiblockMesh<Dim> bent_box(const Index<Dim>& cells, double bend = 0.03) {
   Zone<Dim> zone;
@@ -58,13 +60,14 @@ MultiblockMesh<Dim> bent_box(const Index<Dim>& cells, double bend = 0.03) {
   zone.nodes = BlockArray<Vec<double, Dim>, Dim>(nodes, 0);
   for_each(box_of<Dim>(nodes), [&](const Index<Dim>& index) {
     Vec<double, Dim> x;
-    double wave = bend;
+    for (int d = 0; d < Dim; ++d) x[d] = static_cast<double>(index[d]) / cells[d];
+    Vec<double, Dim> displaced = x;
     for (int d = 0; d < Dim; ++d) {
-      x[d] = static_cast<double>(index[d]) / cells[d];
-      wave *= std::sin(2 * std::numbers::pi * x[d] + 0.3 * d);
+      double wave = bend * (1.0 - 0.4 * d);
+      for (int e = 0; e < Dim; ++e) wave *= std::sin(2 * std::numbers::pi * x[e] + 0.3 * e + 0.9 * d);
+      displaced[d] += wave;
     }
-    for (int d = 0; d < Dim; ++d) x[d] += wave * (1.0 - 0.4 * d);
-    zone.nodes(index) = x;
+    zone.nodes(index) = displaced;
   });
   for (int d = 0; d < Dim; ++d)
     for (int end : {0, 1}) {

@@ -1,0 +1,121 @@
+#include "apps/flow_setup.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "apps/case_mesh.hpp"
+
+namespace wingbeat {
+namespace {
+
+double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
+
+bool has_structure(const CaseSettings& settings) { return settings.structure.mass_ratio > 0.0; }
+
+}  // namespace
+
+template <int Dim>
+FlowModel<Dim, double> flow_model(const FlowSettings& settings) {
+  const double angle = radians(settings.angle_of_attack_deg);
+  return {{settings.gamma, settings.mach, std::cos(angle), std::sin(angle)},
+          {settings.jst_k2, settings.jst_k4, settings.jst_smoothing}};
+}
+
+TypicalSection typical_section(const StructureSettings& settings) {
+  TypicalSection section;
+  section.elastic_axis = settings.elastic_axis;
+  section.static_unbalance = settings.static_unbalance;
+  section.gyration_radius_squared = settings.gyration_radius_squared;
+  section.frequency_ratio = settings.frequency_ratio;
+  section.mass_ratio = settings.mass_ratio;
+  section.damping = settings.damping;
+  return section;
+}
+
+SectionKinematics section_kinematics(const CaseSettings& settings) {
+  SectionKinematics kinematics;
+  kinematics.flow_speed = settings.flow.mach * std::sqrt(settings.flow.gamma);
+  kinematics.mean_pitch = radians(settings.pitch.mean_deg);
+  return kinematics;
+}
+
+Vec<double, 2> rotation_axis(const CaseSettings& settings) {
+  if (has_structure(settings)) return {{{elastic_axis_in_chords(typical_section(settings.structure)), 0.0}}};
+  return {{{settings.pitch.axis[0], settings.pitch.axis[1]}}};
+}
+
+template <int Dim>
+FlowLevels<Dim> make_levels(Context& context, const MultiblockMesh<Dim>& mesh) {
+  const auto part = context.timer.measure("mesh");
+  const CaseSettings& settings = context.settings;
+  // The Schwarz overlap counts layers of the matrix, which reaches two cells to each side.
+  const FlowLevelOptions options{{settings.partition.imbalance}, (settings.solver.overlap + 1) / 2};
+  FlowLevels<Dim> levels;
+  for (auto& level_mesh : mesh_sequence(settings.mesh, mesh, settings.solver.coarse_levels)) {
+    if (level_mesh.cell_count() < static_cast<std::size_t>(context.comm.size())) continue;
+    levels.push_back(std::make_unique<FlowLevel<Dim>>(context.comm, std::move(level_mesh),
+                                                      flow_model<Dim>(settings.flow), rotation_axis(settings),
+                                                      options));
+  }
+  std::string sizes;
+  for (const auto& level : levels) sizes += (sizes.empty() ? "" : ", ") + mesh_size_text<Dim>(level->mesh);
+  const auto& finest = *levels.back();
+  const auto statistics =
+      partition_statistics<Dim>(finest.mesh, finest.partition, 2 * settings.time.harmonics + 1);
+  context.log.line("meshes {}; every BCWall of the mesh is a slip wall", sizes);
+  context.log.line("{} rank{}: {} blocks, imbalance {:.1f} %, {} faces cut, {} halo cells", statistics.ranks,
+                   statistics.ranks == 1 ? "" : "s", statistics.blocks, 100.0 * statistics.imbalance,
+                   statistics.edge_cut, statistics.halo_cells);
+  return levels;
+}
+
+GmresOptions gmres_options(const SolverSettings& settings) {
+  GmresOptions options;
+  options.restart = settings.krylov_restart;
+  options.max_iterations = settings.max_linear_iterations;
+  return options;
+}
+
+PseudoTransientOptions steady_options(const SolverSettings& settings) {
+  PseudoTransientOptions options;
+  options.tolerance = settings.steady_tolerance;
+  options.max_iterations = settings.max_steady_iterations;
+  options.gmres = gmres_options(settings);
+  return options;
+}
+
+Coefficients coefficients(const CaseSettings& settings, const Loads<double>& loads, double pitch) {
+  const double angle = radians(settings.flow.angle_of_attack_deg);
+  Coefficients result;
+  result.cl = loads.force_y * std::cos(angle) - loads.force_x * std::sin(angle);
+  result.cd = loads.force_x * std::cos(angle) + loads.force_y * std::sin(angle);
+  result.cm = loads.moment;
+  if (const auto& reference = settings.flow.moment_reference) {
+    const Vec<double, 2> axis = rotation_axis(settings);
+    const auto arm = rigid_motion({pitch, 0.0, 0.0})
+                         .turned(Vec<double, 2>{{{(*reference)[0] - axis[0], (*reference)[1] - axis[1]}}});
+    result.cm += arm[0] * loads.force_y - arm[1] * loads.force_x;
+  }
+  return result;
+}
+
+void report_steady(Context& context, FlowLevel<2>& level, const MotionState& motion,
+                   const PseudoTransientResult& solved) {
+  const Loads<double> loads = level.steady.loads(level.w, std::span<const MotionState>(&motion, 1))[0];
+  const Coefficients c = coefficients(context.settings, loads, motion.pitch);
+  context.result.findings["steady"] = {{"cl", c.cl},
+                                       {"cd", c.cd},
+                                       {"cm", c.cm},
+                                       {"residual", solved.residual},
+                                       {"iterations", solved.iterations},
+                                       {"linear_iterations", solved.linear_iterations},
+                                       {"factorizations", solved.factorizations}};
+  context.log.line("\ncl = {:.8f}   cd = {:.8f}   cm = {:.8f}   residual {:.1e}", c.cl, c.cd, c.cm, solved.residual);
+}
+
+template FlowModel<2, double> flow_model<2>(const FlowSettings&);
+template FlowModel<3, double> flow_model<3>(const FlowSettings&);
+template FlowLevels<2> make_levels<2>(Context&, const MultiblockMesh<2>&);
+template FlowLevels<3> make_levels<3>(Context&, const MultiblockMesh<3>&);
+
+}  // namespace wingbeat

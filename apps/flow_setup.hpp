@@ -1,0 +1,40 @@
+#pragma once
+
+#include "apps/context.hpp"
+#include "flow/steady_sequence.hpp"
+#include "structure/section_kinematics.hpp"
+#include "structure/typical_section.hpp"
+
+namespace wingbeat {
+
+// What the recipes build of a case's settings.
+template <int Dim>
+FlowModel<Dim, double> flow_model(const FlowSettings& settings);
+TypicalSection typical_section(const StructureSettings& settings);
+SectionKinematics section_kinematics(const CaseSettings& settings);
+
+// The axis the section turns about, chords from the leading edge: the elastic axis where the case
+// has a structure, else pitch.axis.
+Vec<double, 2> rotation_axis(const CaseSettings& settings);
+
+// The case's mesh and the coarser ones that grid sequencing starts from, coarsest first, shared
+// among the ranks; prints their sizes and the partition. Collective.
+template <int Dim>
+FlowLevels<Dim> make_levels(Context& context, const MultiblockMesh<Dim>& mesh);
+
+PseudoTransientOptions steady_options(const SolverSettings& settings);
+GmresOptions gmres_options(const SolverSettings& settings);
+
+// Force and moment coefficients in wind axes, cm nose up about the moment reference.
+struct Coefficients {
+  double cl = 0.0;
+  double cd = 0.0;
+  double cm = 0.0;
+};
+Coefficients coefficients(const CaseSettings& settings, const Loads<double>& loads, double pitch);
+
+// Prints the loads of the level's steady state and puts them into result.json. Collective.
+void report_steady(Context& context, FlowLevel<2>& level, const MotionState& motion,
+                   const PseudoTransientResult& solved);
+
+}  // namespace wingbeat

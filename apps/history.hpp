@@ -1,0 +1,37 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "apps/context.hpp"
+#include "core/io/csv.hpp"
+#include "flow/steady_sequence.hpp"
+#include "structure/aeroelastic_problem.hpp"
+
+namespace wingbeat {
+
+// The iterations of a run: lines of progress as they happen, and history.csv.
+class History {
+ public:
+  explicit History(Context& context);
+
+  void steady(const std::string& mesh, const PseudoTransientIteration& iteration);
+  void coupled(const std::string& stage, const NewtonIteration& iteration, const AeroelasticResiduals& residuals,
+               double omega, double reduced_velocity);
+  // Replaces history.csv; rank 0.
+  void write() const;
+
+ private:
+  double seconds() const;
+
+  Context& context_;
+  std::chrono::steady_clock::time_point start_;
+  CsvTable table_;
+};
+
+// Solves the steady flow on all levels with progress lines. Collective.
+PseudoTransientResult solve_steady_with_progress(Context& context, FlowLevels<2>& levels, const MotionState& motion,
+                                                 History& history);
+
+}  // namespace wingbeat

@@ -1,0 +1,78 @@
+"""The mesh near the section: the whole chord, and the two ends enlarged."""
+
+import numpy as np
+from matplotlib.collections import LineCollection
+
+from read import groups, read_table
+from style import COLOURS, plt
+
+NAME = "mesh"
+SOURCE = "mesh.csv"
+
+
+def grid_lines(table):
+    """Polylines of all grid lines; a line is broken where the table leaves out nodes."""
+    lines = []
+    for across, along in (("j", "i"), ("i", "j")):
+        for rows in groups(zip(table["zone"], table[across])).values():
+            rows = rows[np.argsort(table[along][rows], kind="stable")]
+            breaks = np.nonzero(np.diff(table[along][rows]) != 1)[0] + 1
+            for part in np.split(rows, breaks):
+                if len(part) > 1:
+                    lines.append(np.column_stack([table["x"][part], table["y"][part]]))
+    return lines
+
+
+def visible(lines, xlim, ylim):
+    return [line for line in lines
+            if line[:, 0].max() > xlim[0] and line[:, 0].min() < xlim[1]
+            and line[:, 1].max() > ylim[0] and line[:, 1].min() < ylim[1]]
+
+
+def draw_window(axes, lines, centre, width, height, linewidth):
+    xlim = (centre[0] - 0.5 * width, centre[0] + 0.5 * width)
+    ylim = (centre[1] - 0.5 * height, centre[1] + 0.5 * height)
+    axes.add_collection(LineCollection(visible(lines, xlim, ylim), colors=COLOURS["mesh"], linewidths=linewidth))
+    axes.set(xlim=xlim, ylim=ylim, aspect="equal", xlabel="x / c", ylabel="y / c")
+    axes.grid(False)
+    for side in ("top", "right"):
+        axes.spines[side].set_visible(True)
+
+
+def wall_of(folder):
+    """Points of the section at rest, from surface.csv where a flow was computed."""
+    surface = read_table(folder / "surface.csv", ["instance", "x_body", "y_body"])
+    if surface is None:
+        return None
+    first = surface["instance"] == surface["instance"][0]
+    return surface["x_body"][first], surface["y_body"][first]
+
+
+def ends_of_section(folder, table):
+    """Leading and trailing edge."""
+    wall = wall_of(folder)
+    if wall is None:
+        return (0.0, 0.0), (1.0, 0.0)
+    x, y = wall
+    nose, tail = np.argmin(x), np.argmax(x)
+    return (round(x[nose], 2), y[nose]), (round(x[tail], 2), y[tail])
+
+
+def draw(folder):
+    table = read_table(folder / SOURCE, ["zone", "i", "j", "x", "y"])
+    if table is None:
+        return None
+    lines = grid_lines(table)
+    nose, tail = ends_of_section(folder, table)
+    chord = tail[0] - nose[0]
+    middle = (0.5 * (nose[0] + tail[0]), 0.5 * (nose[1] + tail[1]))
+    figure, panels = plt.subplot_mosaic([["whole", "whole"], ["nose", "tail"]], figsize=(9, 9.4),
+                                        height_ratios=[1.05, 1.0], layout="constrained")
+    draw_window(panels["whole"], lines, middle, 1.7 * chord, 0.95 * chord, 0.35)
+    draw_window(panels["nose"], lines, (nose[0] + 0.03 * chord, nose[1]), 0.14 * chord, 0.14 * chord, 0.5)
+    draw_window(panels["tail"], lines, (tail[0], tail[1]), 0.14 * chord, 0.14 * chord, 0.5)
+    zones = len(groups(table["zone"]))
+    panels["whole"].set_title(f"Mesh near the section, {zones} block{'' if zones == 1 else 's'}")
+    panels["nose"].set_title("leading edge")
+    panels["tail"].set_title("trailing edge")
+    return figure
