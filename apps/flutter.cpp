@@ -146,8 +146,7 @@ SolveStatus run_flutter(Context& context) {
   LinearFlutterSolution<2> linear;
   {
     const auto part = context.timer.measure("linear flutter");
-    linear = solve_linear_flutter<2>(*levels[levels.size() > 1 ? levels.size() - 2 : 0], level, model, kinematics,
-                                     linear_flutter_options(settings));
+    linear = solve_linear_flutter<2>(levels, model, kinematics, linear_flutter_options(settings));
   }
   report_linear_flutter(context, linear.flutter);
   if (!linear.flutter.root) {

@@ -39,11 +39,13 @@ void differentiate_faces(const BlockGeometry<Dim>& geometry, const BlockState<Di
   }
   for (int k = 0; k < 2; ++k)
     cells.radius[k] = D::seed(Load<Pack>::from(state.radius[d].data() + o + (k - 1) * step), 4 + k);
-  const auto weights = jst_weights(pressure_sensor(cells.p[0], cells.p[1], cells.p[2], jst),
-                                   pressure_sensor(cells.p[1], cells.p[2], cells.p[3], jst), cells.radius, jst);
+  const auto weights =
+      jst_weights(pressure_sensor(cells.p[0], cells.p[1], cells.p[2], jst),
+                  pressure_sensor(cells.p[1], cells.p[2], cells.p[3], jst), cells.radius, jst);
   const auto dissipation = jst_dissipation<Dim>(cells, weights);
   for (std::size_t k = 0; k < 4; ++k) {
-    const Pack weight = first_difference[k] * weights.second.value - third_difference[k] * weights.fourth.value;
+    const Pack weight =
+        first_difference[k] * weights.second.value - third_difference[k] * weights.fourth.value;
     store(-weight, gradients.diffusion[k].data());
     for (int row = 0; row < n; ++row)
       store(-dissipation[row].gradient[static_cast<int>(k)], gradients.pressure[k][row].data());
@@ -74,8 +76,8 @@ struct FaceScatter {
   const FaceGradients<Dim>& gradients;
   BlockSparse<n>& matrix;
   int d;
-  std::ptrdiff_t face;   // offset: cell 2 of the stencil
-  std::ptrdiff_t step;   // stride of direction d
+  std::ptrdiff_t face;  // offset: cell 2 of the stencil
+  std::ptrdiff_t step;  // stride of direction d
   std::size_t lane;
 
   std::ptrdiff_t cell(std::size_t k) const { return face + (static_cast<std::ptrdiff_t>(k) - 2) * step; }
@@ -106,7 +108,8 @@ struct FaceScatter {
   // The flux leaves cell 1 and enters cell 2.
   void add_to_row(std::size_t row_cell, std::size_t column_cell, double sign,
                   const std::array<double, n * n>& block) const {
-    const int slot = CellDerivatives<Dim>::slot(d, static_cast<int>(column_cell) - static_cast<int>(row_cell));
+    const int slot =
+        CellDerivatives<Dim>::slot(d, static_cast<int>(column_cell) - static_cast<int>(row_cell));
     const int position = cells.positions[slot][static_cast<std::size_t>(cell(row_cell))];
     if (position < 0) return;
     auto values = matrix.block(static_cast<std::size_t>(position));
@@ -114,15 +117,18 @@ struct FaceScatter {
   }
 };
 
+// Flattened, as the sweeps of the balance are: packs and blocks stay in registers.
 template <int Dim>
-void assemble_interior(const FlowBlock<Dim>& block, const RigidMotion<double>& motion, int d,
-                       const JstCoefficients& jst, const CellDerivatives<Dim>& cells,
-                       BlockSparse<state_size<Dim>>& matrix) {
+[[gnu::flatten]] void assemble_interior(const FlowBlock<Dim>& block, const RigidMotion<double>& motion, int d,
+                                        const JstCoefficients& jst, const CellDerivatives<Dim>& cells,
+                                        BlockSparse<state_size<Dim>>& matrix) {
   const auto& layout = block.geometry.layout;
   const std::ptrdiff_t step = layout.strides[d];
   const auto wide_motion = widen(motion);
   const auto exists = [&](std::ptrdiff_t o) { return block.number[static_cast<std::size_t>(o)] >= 0; };
-  const auto owns_row = [&](std::ptrdiff_t o) { return cells.positions[0][static_cast<std::size_t>(o)] >= 0; };
+  const auto owns_row = [&](std::ptrdiff_t o) {
+    return cells.positions[0][static_cast<std::size_t>(o)] >= 0;
+  };
   Box<Dim> faces = box_of<Dim>(layout.extents);
   ++faces.end[d];
   const std::ptrdiff_t last = layout.last(faces);
@@ -132,7 +138,8 @@ void assemble_interior(const FlowBlock<Dim>& block, const RigidMotion<double>& m
     for (std::ptrdiff_t face = o; face < std::min(o + lanes<Pack>, last); ++face) {
       const bool interior = exists(face - step) && exists(face);
       if (!interior || !(owns_row(face - step) || owns_row(face))) continue;
-      const FaceScatter<Dim> scatter{cells, gradients, matrix, d, face, step, static_cast<std::size_t>(face - o)};
+      const FaceScatter<Dim> scatter{
+          cells, gradients, matrix, d, face, step, static_cast<std::size_t>(face - o)};
       scatter.add(1, 1, 1.0);
       scatter.add(2, 2, 1.0);
       // The outer cells, or the two inner ones they are extrapolated from.
@@ -176,8 +183,8 @@ void assemble_boundary(const FlowBlock<Dim>& block, const RigidMotion<double>& m
     if (boundary.type == BoundaryType::farfield) {
       State<Dim, Dual<double, n>> interior;
       for (int v = 0; v < n; ++v) interior[v] = Dual<double, n>::seed(cells.state.w[v][row], v);
-      const auto flux =
-          farfield_flux<Dim, Dual<double, n>, double>(interior, outside, outward, sweep, model.freestream.gamma);
+      const auto flux = farfield_flux<Dim, Dual<double, n>, double>(interior, outside, outward, sweep,
+                                                                    model.freestream.gamma);
       add(boundary.first, [&](int i, int v) { return flux[i].gradient[v]; });
     } else {
       const auto second = static_cast<std::size_t>(boundary.second);
@@ -191,8 +198,9 @@ void assemble_boundary(const FlowBlock<Dim>& block, const RigidMotion<double>& m
 }
 
 template <int Dim>
-void differentiate_cells(const BlockGeometry<Dim>& geometry, const RigidMotion<double>& motion, double gamma,
-                         CellDerivatives<Dim>& cells) {
+[[gnu::flatten]] void differentiate_cells(const BlockGeometry<Dim>& geometry,
+                                          const RigidMotion<double>& motion, double gamma,
+                                          CellDerivatives<Dim>& cells) {
   constexpr int n = state_size<Dim>;
   using D = Dual<Pack, n>;
   const auto& layout = geometry.layout;
@@ -247,7 +255,8 @@ CellDerivatives<Dim>::CellDerivatives(const FlowBlock<Dim>& block, const BlockPa
 template <int Dim>
 FlowJacobian<Dim>::FlowJacobian(const FlowDomain<Dim>& domain, const FlowModel<Dim, double>& model)
     : domain_(domain), model_(model) {
-  for (const auto& block : domain.blocks()) cells_.emplace_back(block, *domain.pattern(), model.freestream.state());
+  for (const auto& block : domain.blocks())
+    cells_.emplace_back(block, *domain.pattern(), model.freestream.state());
 }
 
 template <int Dim>

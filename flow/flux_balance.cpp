@@ -13,36 +13,39 @@ namespace {
 template <class S>
 using Sweep = std::conditional_t<std::is_same_v<S, double>, Pack, S>;
 
+// Sweeps are flattened: a kernel left as a call would pass its packs through memory.
 template <int Dim, class S>
-void sweep_radii(const BlockGeometry<Dim>& geometry, const RigidMotion<Sweep<S>>& motion, double gamma,
-                 BlockState<Dim, S>& state) {
+[[gnu::flatten]] void sweep_radii(const BlockGeometry<Dim>& geometry, const RigidMotion<Sweep<S>>& motion,
+                                  double gamma, BlockState<Dim, S>& state) {
   using T = Sweep<S>;
   const auto& layout = geometry.layout;
   const Box<Dim> cells = grown(box_of<Dim>(layout.extents), 1);
   for (std::ptrdiff_t o = layout.first(cells); o < layout.last(cells); o += lanes<T>) {
     const auto faces = mean_faces<Dim, T>(geometry, motion, o);
-    const auto lambda = spectral_radii<Dim, T, T>(load_state<Dim, T>(state, o), Load<T>::from(state.p.data() + o),
-                                               faces.normals, faces.sweeps, gamma);
+    const auto lambda = spectral_radii<Dim, T, T>(
+        load_state<Dim, T>(state, o), Load<T>::from(state.p.data() + o), faces.normals, faces.sweeps, gamma);
     const auto radii = scaled_radii(lambda);
     for (int d = 0; d < Dim; ++d) store(radii[d], state.radius[d].data() + o);
   }
 }
 
 template <int Dim, class S>
-void sweep_sensor(const BlockLayout<Dim>& layout, int d, const JstCoefficients& jst, BlockState<Dim, S>& state) {
+[[gnu::flatten]] void sweep_sensor(const BlockLayout<Dim>& layout, int d, const JstCoefficients& jst,
+                                   BlockState<Dim, S>& state) {
   using T = Sweep<S>;
   const std::ptrdiff_t step = layout.strides[d];
   const Box<Dim> cells = grown(box_of<Dim>(layout.extents), 1);
   const S* p = state.p.data();
   for (std::ptrdiff_t o = layout.first(cells); o < layout.last(cells); o += lanes<T>)
-    store(pressure_sensor<T>(Load<T>::from(p + o - step), Load<T>::from(p + o), Load<T>::from(p + o + step), jst),
+    store(pressure_sensor<T>(Load<T>::from(p + o - step), Load<T>::from(p + o), Load<T>::from(p + o + step),
+                             jst),
           state.sensor.data() + o);
 }
 
 // Flux through every face of a direction, as if it were an interior one.
 template <int Dim, class S>
-void sweep_fluxes(const BlockGeometry<Dim>& geometry, const RigidMotion<Sweep<S>>& motion, int d,
-                  const JstCoefficients& jst, BlockState<Dim, S>& state) {
+[[gnu::flatten]] void sweep_fluxes(const BlockGeometry<Dim>& geometry, const RigidMotion<Sweep<S>>& motion,
+                                   int d, const JstCoefficients& jst, BlockState<Dim, S>& state) {
   using T = Sweep<S>;
   const auto& layout = geometry.layout;
   const std::ptrdiff_t step = layout.strides[d];
@@ -57,10 +60,9 @@ void sweep_fluxes(const BlockGeometry<Dim>& geometry, const RigidMotion<Sweep<S>
     }
     for (int k = 0; k < 2; ++k) cells.radius[k] = Load<T>::from(state.radius[d].data() + o + (k - 1) * step);
     const auto face = moved_face<Dim, T>(geometry, motion, d, o);
-    const auto flux =
-        jst_flux<Dim, T>(cells, Load<T>::from(state.sensor.data() + o - step),
-                            Load<T>::from(state.sensor.data() + o), face.normal, face.sweep, jst);
-    for (int v = 0; v < state_size<Dim>; ++v) store(flux[v], state.flux[v].data() + o);
+    const auto flux = jst_flux<Dim, T>(cells, Load<T>::from(state.sensor.data() + o - step),
+                                       Load<T>::from(state.sensor.data() + o), face.normal, face.sweep, jst);
+    for (int v = 0; v < state_size<Dim>; ++v) store(flux[v], state.flux[d][v].data() + o);
   }
 }
 
@@ -81,26 +83,29 @@ void set_boundary_fluxes(const FlowBlock<Dim>& block, const RigidMotion<S>& moti
                                        model.freestream.gamma)
             : wall_flux<Dim, S, S>(wall_pressure<S>(p[boundary.first], p[boundary.second]), outward, sweep);
     for (int v = 0; v < state_size<Dim>; ++v)
-      state.flux[v][static_cast<std::size_t>(boundary.face)] = boundary.outward * flux[v];
+      state.flux[d][v][static_cast<std::size_t>(boundary.face)] = boundary.outward * flux[v];
   }
 }
 
-// Adds what leaves each cell in direction d to the balance.
+// What leaves each cell: the differences of the fluxes through its faces.
 template <int Dim, class S>
-void add_differences(const FlowBlock<Dim>& block, int d, const BlockState<Dim, S>& state, std::span<S> balance) {
+void set_balance(const FlowBlock<Dim>& block, const BlockState<Dim, S>& state, std::span<S> balance) {
   const auto& layout = block.geometry.layout;
-  const std::ptrdiff_t step = layout.strides[d];
   constexpr int n = state_size<Dim>;
   Box<Dim> rows = box_of<Dim>(layout.extents);
   rows.end[0] = 1;
   S* out = balance.data() + static_cast<std::size_t>(block.first_cell) * n;
   for_each(rows, [&](const Index<Dim>& row) {
     const std::ptrdiff_t o = layout.offset(row);
-    for (int v = 0; v < n; ++v) {
-      const S* low = state.flux[v].data() + o;
-      const S* high = low + step;
-      for (int i = 0; i < layout.extents[0]; ++i) out[i * n + v] += high[i] - low[i];
-    }
+    for (int v = 0; v < n; ++v)
+      for (int i = 0; i < layout.extents[0]; ++i) {
+        S sum(0.0);
+        for (int d = 0; d < Dim; ++d) {
+          const S* flux = state.flux[d][v].data() + o + i;
+          sum += flux[layout.strides[d]] - flux[0];
+        }
+        out[i * n + v] = sum;
+      }
     out += static_cast<std::ptrdiff_t>(layout.extents[0]) * n;
   });
 }
@@ -109,10 +114,9 @@ void add_differences(const FlowBlock<Dim>& block, int d, const BlockState<Dim, S
 
 template <int Dim, class S>
 BlockState<Dim, S>::BlockState(const BlockLayout<Dim>& layout, const State<Dim, S>& fill) {
-  for (int v = 0; v < state_size<Dim>; ++v) {
-    w[v].assign(layout.size, fill[v]);
-    flux[v].assign(layout.size, S(0.0));
-  }
+  for (int v = 0; v < state_size<Dim>; ++v) w[v].assign(layout.size, fill[v]);
+  for (auto& direction : flux)
+    for (auto& values : direction) values.assign(layout.size, S(0.0));
   p.assign(layout.size, S(1.0));
   sensor.assign(layout.size, S(0.0));
   for (auto& values : radius) values.assign(layout.size, S(1.0));
@@ -159,13 +163,13 @@ void load_block(const FlowBlock<Dim>& block, int owned_count, std::span<const S>
 template <int Dim, class S>
 FluxBalance<Dim, S>::FluxBalance(const FlowDomain<Dim>& domain, const FlowModel<Dim, S>& model)
     : domain_(domain), model_(model) {
-  for (const auto& block : domain.blocks()) states_.emplace_back(block.geometry.layout, model.freestream.state());
+  for (const auto& block : domain.blocks())
+    states_.emplace_back(block.geometry.layout, model.freestream.state());
 }
 
 template <int Dim, class S>
-void FluxBalance<Dim, S>::evaluate(std::span<const S> w, std::span<const S> ghosts, const RigidMotion<S>& motion,
-                                   std::span<S> balance) {
-  std::fill(balance.begin(), balance.end(), S(0.0));
+void FluxBalance<Dim, S>::evaluate(std::span<const S> w, std::span<const S> ghosts,
+                                   const RigidMotion<S>& motion, std::span<S> balance) {
   const auto wide_motion = widen(motion);
   for (std::size_t b = 0; b < states_.size(); ++b) {
     const FlowBlock<Dim>& block = domain_.blocks()[b];
@@ -176,8 +180,8 @@ void FluxBalance<Dim, S>::evaluate(std::span<const S> w, std::span<const S> ghos
       sweep_sensor<Dim, S>(block.geometry.layout, d, model_.jst, state);
       sweep_fluxes<Dim, S>(block.geometry, wide_motion, d, model_.jst, state);
       set_boundary_fluxes<Dim, S>(block, motion, d, model_, state);
-      add_differences<Dim, S>(block, d, state, balance);
     }
+    set_balance<Dim, S>(block, state, balance);
   }
 }
 
@@ -197,10 +201,10 @@ template bool is_physical<3>(std::span<const double>, double);
 
 template struct BlockState<2, double>;
 template struct BlockState<3, double>;
-template void load_block<2, double>(const FlowBlock<2>&, int, std::span<const double>, std::span<const double>,
-                                    double, BlockState<2, double>&);
-template void load_block<3, double>(const FlowBlock<3>&, int, std::span<const double>, std::span<const double>,
-                                    double, BlockState<3, double>&);
+template void load_block<2, double>(const FlowBlock<2>&, int, std::span<const double>,
+                                    std::span<const double>, double, BlockState<2, double>&);
+template void load_block<3, double>(const FlowBlock<3>&, int, std::span<const double>,
+                                    std::span<const double>, double, BlockState<3, double>&);
 template class FluxBalance<2, double>;
 template class FluxBalance<3, double>;
 template class FluxBalance<2, Dual<double, 1>>;

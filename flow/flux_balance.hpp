@@ -22,8 +22,8 @@ struct BlockState {
   std::array<std::vector<S>, state_size<Dim>> w;
   std::vector<S> p;
   std::array<std::vector<S>, Dim> radius;
-  std::vector<S> sensor;                            // of the direction being swept
-  std::array<std::vector<S>, state_size<Dim>> flux;  // of the direction being swept
+  std::vector<S> sensor;                                              // of the direction being swept
+  std::array<std::array<std::vector<S>, state_size<Dim>>, Dim> flux;  // [direction][variable]
 
   explicit BlockState(const BlockLayout<Dim>& layout, const State<Dim, S>& fill);
 };

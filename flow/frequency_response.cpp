@@ -61,10 +61,11 @@ void FrequencyResponse<Dim>::factor(double kappa) {
 }
 
 template <int Dim>
-std::vector<Complex> FrequencyResponse<Dim>::solve(double kappa, std::span<const Complex> rhs) {
-  constexpr int patience = 40;  // iterations that cost about as much as a factorization
-  std::vector<Complex> x(rhs.size());
-  if (factored_kappa_ < 0.0) factor(kappa);
+void FrequencyResponse<Dim>::solve(double kappa, std::span<const Complex> rhs, std::vector<Complex>& x) {
+  constexpr int patience = 20;       // iterations that cost about as much as a factorization
+  constexpr double nearness = 0.25;  // relative distance over which factors are worth trying
+  x.resize(rhs.size());
+  if (std::abs(kappa - factored_kappa_) > nearness * kappa) factor(kappa);
   const FrequencyOperator<Dim> op(flow_, kappa);
   const Comm& comm = flow_.domain().comm();
   GmresOptions options{tolerance_, 60, factored_kappa_ == kappa ? 600 : patience};
@@ -79,11 +80,11 @@ std::vector<Complex> FrequencyResponse<Dim>::solve(double kappa, std::span<const
   ensure(result.status == GmresStatus::converged || result.relative_residual < 100 * tolerance_,
          fmt::format("linearized flow at kappa = {}: GMRES ended with {} at relative residual {:.1e}", kappa,
                      to_string(result.status), result.relative_residual));
-  return x;
 }
 
 template <int Dim>
-HarmonicResponse FrequencyResponse<Dim>::at(double kappa) {
+const HarmonicResponse& FrequencyResponse<Dim>::at(double kappa) {
+  if (kappa == solved_kappa_) return response_;
   const auto& [by_pitch, by_pitch_rate, by_plunge_rate] = flow_.motion_gradients(0);
   const std::size_t count = flow_.state_count();
   std::vector<Complex> pitch_rhs(count), plunge_rhs(count);
@@ -92,18 +93,18 @@ HarmonicResponse FrequencyResponse<Dim>::at(double kappa) {
     pitch_rhs[i] = -(by_pitch[i] + rate * by_pitch_rate[i]);
     plunge_rhs[i] = -rate * by_plunge_rate[i];
   }
-  HarmonicResponse response;
-  response.pitch = solve(kappa, pitch_rhs);
-  response.plunge = solve(kappa, plunge_rhs);
+  solve(kappa, pitch_rhs, response_.pitch);
+  solve(kappa, plunge_rhs, response_.plunge);
+  solved_kappa_ = kappa;
 
   const LoadGradients& gradients = flow_.load_gradients(0);
-  std::array<Complex, 4> sums{dot(gradients.force_y, response.pitch), dot(gradients.moment, response.pitch),
-                              dot(gradients.force_y, response.plunge), dot(gradients.moment, response.plunge)};
+  std::array<Complex, 4> sums{dot(gradients.force_y, response_.pitch), dot(gradients.moment, response_.pitch),
+                              dot(gradients.force_y, response_.plunge), dot(gradients.moment, response_.plunge)};
   flow_.domain().comm().sum(sums);
   const auto& loads = flow_.linearized_loads(0);
-  response.pitch_loads = {sums[0] + loads.force_y.gradient[0], sums[1] + loads.moment.gradient[0]};
-  response.plunge_loads = {sums[2], sums[3]};
-  return response;
+  response_.pitch_loads = {sums[0] + loads.force_y.gradient[0], sums[1] + loads.moment.gradient[0]};
+  response_.plunge_loads = {sums[2], sums[3]};
+  return response_;
 }
 
 template class FrequencyResponse<2>;

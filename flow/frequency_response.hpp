@@ -27,21 +27,24 @@ class FrequencyResponse {
   FrequencyResponse(const FlowEquations<Dim>& flow, std::shared_ptr<SchwarzSolver<std::complex<double>>> solver,
                     double tolerance = 1e-10);
 
-  // At frequency kappa on the flow's clock. The factors of another frequency serve while GMRES
-  // stays short with them. Collective. Throws InternalError where the linear solve fails.
-  HarmonicResponse at(double kappa);
+  // At frequency kappa on the flow's clock. The factors of a near frequency serve while GMRES stays
+  // short with them, and its solution is the start. Collective. Throws InternalError where the
+  // linear solve fails.
+  const HarmonicResponse& at(double kappa);
 
   int factorization_count() const { return factorizations_; }
   int linear_iterations() const { return linear_iterations_; }
 
  private:
-  std::vector<std::complex<double>> solve(double kappa, std::span<const std::complex<double>> rhs);
+  void solve(double kappa, std::span<const std::complex<double>> rhs, std::vector<std::complex<double>>& x);
   void factor(double kappa);
 
   const FlowEquations<Dim>& flow_;
   std::shared_ptr<SchwarzSolver<std::complex<double>>> solver_;
   double tolerance_;
   double factored_kappa_ = -1.0;
+  double solved_kappa_ = -1.0;
+  HarmonicResponse response_;
   int factorizations_ = 0;
   int linear_iterations_ = 0;
 };

@@ -14,18 +14,33 @@ struct MovedFace {
   T sweep;
 };
 
+// Face at rest: area vector and moment about the axis of rotation.
+template <int Dim, class T>
+struct RestingFace {
+  Vec<T, Dim> normal;
+  T moment;
+};
+
 // Face (or lanes<T> consecutive faces) at offset o of direction d.
+template <int Dim, class T>
+RestingFace<Dim, T> resting_face(const BlockGeometry<Dim>& geometry, int d, std::ptrdiff_t o) {
+  using Stored = std::conditional_t<std::is_same_v<T, Pack>, Pack, double>;
+  RestingFace<Dim, T> face;
+  for (int c = 0; c < Dim; ++c) face.normal[c] = T(Load<Stored>::from(geometry.normal[d][c].data() + o));
+  face.moment = T(Load<Stored>::from(geometry.moment[d].data() + o));
+  return face;
+}
+
+template <int Dim, class T>
+MovedFace<Dim, T> moved(const RestingFace<Dim, T>& face, const RigidMotion<T>& motion) {
+  const Vec<T, Dim> normal = motion.turned(face.normal);
+  return {normal, motion.sweep(normal, face.moment)};
+}
+
 template <int Dim, class T>
 MovedFace<Dim, T> moved_face(const BlockGeometry<Dim>& geometry, const RigidMotion<T>& motion, int d,
                              std::ptrdiff_t o) {
-  using Stored = std::conditional_t<std::is_same_v<T, Pack>, Pack, double>;
-  Vec<T, Dim> normal;
-  for (int c = 0; c < Dim; ++c) normal[c] = T(Load<Stored>::from(geometry.normal[d][c].data() + o));
-  const T moment(Load<Stored>::from(geometry.moment[d].data() + o));
-  MovedFace<Dim, T> face;
-  face.normal = motion.turned(normal);
-  face.sweep = motion.sweep(face.normal, moment);
-  return face;
+  return moved(resting_face<Dim, T>(geometry, d, o), motion);
 }
 
 // Means of the two faces of the cell at offset o in each direction.
@@ -35,13 +50,16 @@ struct CellFaces {
   Vec<T, Dim> sweeps;
 };
 template <int Dim, class T>
-CellFaces<Dim, T> mean_faces(const BlockGeometry<Dim>& geometry, const RigidMotion<T>& motion, std::ptrdiff_t o) {
+CellFaces<Dim, T> mean_faces(const BlockGeometry<Dim>& geometry, const RigidMotion<T>& motion,
+                             std::ptrdiff_t o) {
   CellFaces<Dim, T> mean;
   for (int d = 0; d < Dim; ++d) {
-    const auto low = moved_face<Dim, T>(geometry, motion, d, o);
-    const auto high = moved_face<Dim, T>(geometry, motion, d, o + geometry.layout.strides[d]);
-    mean.normals[d] = 0.5 * (low.normal + high.normal);
-    mean.sweeps[d] = 0.5 * (low.sweep + high.sweep);
+    const auto low = resting_face<Dim, T>(geometry, d, o);
+    const auto high = resting_face<Dim, T>(geometry, d, o + geometry.layout.strides[d]);
+    const RestingFace<Dim, T> middle{0.5 * (low.normal + high.normal), 0.5 * (low.moment + high.moment)};
+    const auto face = moved(middle, motion);
+    mean.normals[d] = face.normal;
+    mean.sweeps[d] = face.sweep;
   }
   return mean;
 }

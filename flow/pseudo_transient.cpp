@@ -58,10 +58,10 @@ PseudoTransientResult pseudo_transient(FlowEquations<Dim>& flow, const MotionSta
 
   PseudoTransientResult result;
   result.residual = residual(w, r);
-  const double start = result.residual;
-  double cfl = options.cfl_initial;
+  const auto cfl_target = [&] { return options.cfl_initial * std::pow(result.residual, -options.cfl_growth); };
+  double cfl = cfl_target();
   bool refactor = true;
-  PseudoTransientIteration report{0, start, cfl, 0.0, 0, false};
+  PseudoTransientIteration report{0, result.residual, cfl, 0.0, 0, false};
   while (true) {
     if (observer && comm.any(!observer(report))) return result.status = SolveStatus::interrupted, result;
     if (!std::isfinite(result.residual)) return result.status = SolveStatus::diverged, result;
@@ -102,8 +102,7 @@ PseudoTransientResult pseudo_transient(FlowEquations<Dim>& flow, const MotionSta
       std::copy(trial.begin(), trial.end(), w.begin());
       r.swap(trial_r);
       result.residual = trial_residual;
-      const double target = options.cfl_initial * std::pow(start / result.residual, options.cfl_growth);
-      cfl = step < 0.5 ? std::max(cfl * step, 1.0) : std::min(target, cfl * 10.0);
+      cfl = step < 0.5 ? std::max(cfl * step, 1.0) : std::min(cfl_target(), cfl * 10.0);
     } else {
       for (double& value : r) value = -value;
       cfl *= 0.1;

@@ -30,6 +30,22 @@ const FlutterRoot* lowest_destabilising(const std::vector<FlutterRoot>& roots) {
   return nullptr;
 }
 
+// Polishes, with Q of a section, the destabilising roots that may turn out to be the lowest.
+template <int Dim>
+void polish_lowest(const StructureModel& model, LinearizedSection<Dim>& section, const AerodynamicTable& table,
+                   double tolerance, std::vector<FlutterRoot>& roots) {
+  constexpr double margin = 1.2;
+  const double limit = margin * lowest_destabilising(roots)->reduced_velocity;
+  const auto exact = [&](double k) { return section.aerodynamic_matrix(k); };
+  // The lowest last: its flow is then at hand.
+  for (auto root = roots.rbegin(); root != roots.rend(); ++root)
+    if (root->is_destabilising() && root->reduced_velocity <= limit)
+      *root = polish_flutter_root(model, exact, table, *root, {.tolerance = tolerance});
+  std::sort(roots.begin(), roots.end(), [](const FlutterRoot& a, const FlutterRoot& b) {
+    return a.reduced_velocity < b.reduced_velocity;
+  });
+}
+
 }  // namespace
 
 bool is_deflected(const Loads<double>& loads) {
@@ -103,46 +119,34 @@ AerodynamicTable sampled_matrix(LinearizedSection<Dim>& section, const LinearFlu
 }
 
 template <int Dim>
-LinearFlutterSolution<Dim> solve_linear_flutter(FlowLevel<Dim>& coarse, FlowLevel<Dim>& fine,
-                                                const StructureModel& model, const SectionKinematics& kinematics,
+LinearFlutterSolution<Dim> solve_linear_flutter(FlowLevels<Dim>& levels, const StructureModel& model,
+                                                const SectionKinematics& kinematics,
                                                 const LinearFlutterOptions& options) {
   const std::vector<MotionState> unmoved{{kinematics.mean_pitch, 0.0, 0.0}};
-  const bool deflects = is_deflected(fine.steady.loads(fine.w, unmoved)[0]);
+  const bool deflects = is_deflected(levels.back()->steady.loads(levels.back()->w, unmoved)[0]);
   LinearFlutterSolution<Dim> solution;
-
-  // All roots on the coarse level.
   std::optional<AerodynamicTable> table;
-  std::optional<double> speed;
-  for (int repeat = 0; repeat < max_equilibria; ++repeat) {
-    LinearizedSection<Dim> section(coarse, kinematics, section_at_rest<Dim>(coarse, model, kinematics, speed, options),
-                                   options.tolerance);
-    table = sampled_matrix<Dim>(section, options);
-    solution.flutter.roots = scan_flutter_roots(model, *table);
-    const FlutterRoot* lowest = lowest_destabilising(solution.flutter.roots);
-    if (!lowest) return solution;
-    const bool settled = speed && std::abs(lowest->reduced_velocity - *speed) < settled_speed * *speed;
-    if (!deflects || settled) break;
-    speed = lowest->reduced_velocity;
-  }
+  std::optional<double> speed;  // at which the section rests, once a root is known
 
-  // The candidates for the lowest on the fine level.
-  constexpr double margin = 1.2;
-  const double limit = margin * lowest_destabilising(solution.flutter.roots)->reduced_velocity;
-  for (int repeat = 0; repeat < max_equilibria; ++repeat) {
-    solution.section = std::make_unique<LinearizedSection<Dim>>(
-        fine, kinematics, section_at_rest<Dim>(fine, model, kinematics, speed, options), options.tolerance);
-    for (FlutterRoot& root : solution.flutter.roots)
-      if (root.is_destabilising() && root.reduced_velocity <= limit)
-        root = polish_flutter_root(
-            model, [&](double k) { return solution.section->aerodynamic_matrix(k); }, *table, root,
-            {.tolerance = 10.0 * options.tolerance});
-    std::sort(solution.flutter.roots.begin(), solution.flutter.roots.end(),
-              [](const FlutterRoot& a, const FlutterRoot& b) { return a.reduced_velocity < b.reduced_velocity; });
-    solution.flutter.root = *lowest_destabilising(solution.flutter.roots);
-    const double found = solution.flutter.root->reduced_velocity;
-    if (!deflects || std::abs(found - *speed) < settled_speed * found) break;
-    speed = found;
-  }
+  for (const auto& level : levels)
+    for (int repeat = 0; repeat < max_equilibria; ++repeat) {
+      solution.section = std::make_unique<LinearizedSection<Dim>>(
+          *level, kinematics, section_at_rest<Dim>(*level, model, kinematics, speed, options), options.tolerance);
+      if (level == levels.front()) {
+        table = sampled_matrix<Dim>(*solution.section, options);
+        solution.flutter.roots = scan_flutter_roots(model, *table);
+      } else {
+        polish_lowest(model, *solution.section, *table, 10.0 * options.tolerance, solution.flutter.roots);
+      }
+      const FlutterRoot* lowest = lowest_destabilising(solution.flutter.roots);
+      if (!lowest) return solution;
+      const double found = lowest->reduced_velocity;
+      const bool is_settled = speed && std::abs(found - *speed) < settled_speed * found;
+      if (deflects) speed = found;
+      if (!deflects || is_settled) break;
+    }
+  if (levels.size() == 1) polish_lowest(model, *solution.section, *table, 10.0 * options.tolerance, solution.flutter.roots);
+  solution.flutter.root = *lowest_destabilising(solution.flutter.roots);
   return solution;
 }
 
@@ -150,13 +154,13 @@ template class LinearizedSection<2>;
 template AeroelasticState static_equilibrium<2>(FlowLevel<2>&, const StructureModel&, const SectionKinematics&,
                                                 double, const LinearFlutterOptions&);
 template AerodynamicTable sampled_matrix<2>(LinearizedSection<2>&, const LinearFlutterOptions&);
-template LinearFlutterSolution<2> solve_linear_flutter<2>(FlowLevel<2>&, FlowLevel<2>&, const StructureModel&,
+template LinearFlutterSolution<2> solve_linear_flutter<2>(FlowLevels<2>&, const StructureModel&,
                                                            const SectionKinematics&, const LinearFlutterOptions&);
 template class LinearizedSection<3>;
 template AeroelasticState static_equilibrium<3>(FlowLevel<3>&, const StructureModel&, const SectionKinematics&,
                                                 double, const LinearFlutterOptions&);
 template AerodynamicTable sampled_matrix<3>(LinearizedSection<3>&, const LinearFlutterOptions&);
-template LinearFlutterSolution<3> solve_linear_flutter<3>(FlowLevel<3>&, FlowLevel<3>&, const StructureModel&,
+template LinearFlutterSolution<3> solve_linear_flutter<3>(FlowLevels<3>&, const StructureModel&,
                                                            const SectionKinematics&, const LinearFlutterOptions&);
 
 }  // namespace wingbeat

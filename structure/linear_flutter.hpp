@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "flow/flow_level.hpp"
+#include "flow/steady_sequence.hpp"
 #include "flow/frequency_response.hpp"
 #include "structure/aeroelastic_problem.hpp"
 #include "structure/flutter_roots.hpp"
@@ -69,17 +69,17 @@ template <int Dim>
 AerodynamicTable sampled_matrix(LinearizedSection<Dim>& section, const LinearFlutterOptions& options);
 
 // Flutter by the linearized frequency domain, from coarse to fine: all roots are sought with a table
-// of Q(k) on `coarse`, those near the lowest destabilising one are polished with Q of `fine` (the two
-// may be the same). Where the section carries lift, equilibrium and root are repeated until the
-// speed at which it rests is the speed at which it flutters. Both levels are steady solutions.
+// of Q(k) on the coarsest level, those near the lowest destabilising one are then polished with Q of
+// each finer level. Where the section carries lift, equilibrium and root are repeated until the
+// speed at which it rests is the speed at which it flutters. All levels hold steady solutions.
 template <int Dim>
 struct LinearFlutterSolution {
   LinearFlutter flutter;
-  std::unique_ptr<LinearizedSection<Dim>> section;  // of the fine level, last solved at the root
+  std::unique_ptr<LinearizedSection<Dim>> section;  // of the finest level, last solved near the root
 };
 template <int Dim>
-LinearFlutterSolution<Dim> solve_linear_flutter(FlowLevel<Dim>& coarse, FlowLevel<Dim>& fine,
-                                                const StructureModel& model, const SectionKinematics& kinematics,
+LinearFlutterSolution<Dim> solve_linear_flutter(FlowLevels<Dim>& levels, const StructureModel& model,
+                                                const SectionKinematics& kinematics,
                                                 const LinearFlutterOptions& options);
 
 }  // namespace wingbeat

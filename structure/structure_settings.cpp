@@ -1,17 +1,6 @@
 #include "structure/structure_settings.hpp"
 
-#include "structure/typical_section.hpp"
-
 namespace wingbeat {
-
-TypicalSection StructureSettings::section() const {
-  return {.elastic_axis = elastic_axis,
-          .static_unbalance = static_unbalance,
-          .gyration_radius_squared = gyration_radius_squared,
-          .frequency_ratio = frequency_ratio,
-          .mass_ratio = mass_ratio,
-          .damping = damping};
-}
 
 void StructureSettings::describe(SettingSection& keys) {
   keys.add("elastic_axis", &elastic_axis,

@@ -17,7 +17,6 @@ struct StructureSettings {
   double mass_ratio = 0.0;               // m / (pi rho b^2)
   std::array<double, 2> damping{0.0, 0.0};
 
-  TypicalSection section() const;
   void describe(SettingSection& keys);
 };
 

@@ -37,5 +37,5 @@ def draw(folder):
               title=r"Aerodynamic matrix, $(-C_l,\ 2C_m) = Q(k)\,(h/b,\ \alpha)$")
     lower.set(ylabel="phase, deg", xlabel=r"reduced frequency $k = \omega b/U$", xlim=(0.0, None))
     lower.yaxis.set_major_locator(plt.MultipleLocator(45.0))
-    upper.legend(ncols=2)
+    upper.legend(ncols=2, handlelength=4)
     return figure

@@ -1,4 +1,4 @@
-"""The mesh near the section: the whole chord, and the two ends enlarged."""
+"""The mesh near the section, whose chord runs from (0, 0) to (1, 0): all of it, and the two ends enlarged."""
 
 import numpy as np
 from matplotlib.collections import LineCollection
@@ -39,38 +39,16 @@ def draw_window(axes, lines, centre, width, height, linewidth):
         axes.spines[side].set_visible(True)
 
 
-def wall_of(folder):
-    """Points of the section at rest, from surface.csv where a flow was computed."""
-    surface = read_table(folder / "surface.csv", ["instance", "x_body", "y_body"])
-    if surface is None:
-        return None
-    first = surface["instance"] == surface["instance"][0]
-    return surface["x_body"][first], surface["y_body"][first]
-
-
-def ends_of_section(folder, table):
-    """Leading and trailing edge."""
-    wall = wall_of(folder)
-    if wall is None:
-        return (0.0, 0.0), (1.0, 0.0)
-    x, y = wall
-    nose, tail = np.argmin(x), np.argmax(x)
-    return (round(x[nose], 2), y[nose]), (round(x[tail], 2), y[tail])
-
-
 def draw(folder):
     table = read_table(folder / SOURCE, ["zone", "i", "j", "x", "y"])
     if table is None:
         return None
     lines = grid_lines(table)
-    nose, tail = ends_of_section(folder, table)
-    chord = tail[0] - nose[0]
-    middle = (0.5 * (nose[0] + tail[0]), 0.5 * (nose[1] + tail[1]))
     figure, panels = plt.subplot_mosaic([["whole", "whole"], ["nose", "tail"]], figsize=(9, 9.4),
                                         height_ratios=[1.05, 1.0], layout="constrained")
-    draw_window(panels["whole"], lines, middle, 1.7 * chord, 0.95 * chord, 0.35)
-    draw_window(panels["nose"], lines, (nose[0] + 0.03 * chord, nose[1]), 0.14 * chord, 0.14 * chord, 0.5)
-    draw_window(panels["tail"], lines, (tail[0], tail[1]), 0.14 * chord, 0.14 * chord, 0.5)
+    draw_window(panels["whole"], lines, (0.5, 0.0), 1.7, 0.95, 0.35)
+    draw_window(panels["nose"], lines, (0.03, 0.0), 0.14, 0.14, 0.5)
+    draw_window(panels["tail"], lines, (1.0, 0.0), 0.14, 0.14, 0.5)
     zones = len(groups(table["zone"]))
     panels["whole"].set_title(f"Mesh near the section, {zones} block{'' if zones == 1 else 's'}")
     panels["nose"].set_title("leading edge")

@@ -26,10 +26,12 @@ def name_of(mode):
 def plot_mode(axes, table, rows, column, colour, label):
     """Solid where p-k converged, dotted where Q was held at the end of its range."""
     values, speed = table[column][rows], table["reduced_velocity"][rows]
-    good = np.array([table["status"][row] == "converged" for row in rows])
-    near = good | np.roll(good, 1) | np.roll(good, -1)  # so that the two meet
-    axes.plot(speed, np.where(good, values, np.nan), color=colour, label=label)
-    axes.plot(speed, np.where(~good | ~near, values, np.nan), color=colour, linestyle=":", linewidth=1.0)
+    bad = np.array([table["status"][row] != "converged" for row in rows])
+    dotted = bad.copy()  # and the neighbours, so that the two meet
+    dotted[1:] |= bad[:-1]
+    dotted[:-1] |= bad[1:]
+    axes.plot(speed, np.where(bad, np.nan, values), color=colour, label=label)
+    axes.plot(speed, np.where(dotted, values, np.nan), color=colour, linestyle=":", linewidth=1.2)
 
 
 def add_speed_index(axes, case):

@@ -42,7 +42,7 @@ def label_of(phase):
 def add_key(figure, axes, instances):
     if len(instances) <= MOST_IN_LEGEND:
         handles, labels = axes.get_legend_handles_labels()
-        axes.legend(handles, labels, loc="upper right", ncols=max(1, len(handles) // 4))
+        axes.legend(handles, labels, loc="upper right", frameon=True, edgecolor="none", framealpha=1.0)
         return
     wheel = ListedColormap([phase_colour(turn) for turn in np.linspace(0.0, 1.0, 256)])
     bar = figure.colorbar(ScalarMappable(Normalize(0.0, 360.0), wheel), ax=figure.axes, pad=0.01, aspect=40)

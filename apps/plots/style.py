@@ -23,7 +23,6 @@ COLOURS = {
     "sonic": "#606060",
     "line": "#808080",
     "mesh": "#3a4653",
-    "section": "#d9dee3",
     "linear": "#a9b4bf",
 }
 # Modes beyond the two of a section, branches of any number.

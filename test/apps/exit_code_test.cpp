@@ -21,6 +21,7 @@ class ExitCode : public Program {
 
   // Starts `wait` on one rank, sends the signal once it is at work, and returns its exit code.
   int signalled(int signal) const {
+    std::filesystem::remove(folder_ / "out.txt");
     const pid_t child = ::fork();
     if (child == 0) {
       if (::chdir(folder_.c_str()) != 0 || !std::freopen("out.txt", "w", stdout)) ::_exit(99);

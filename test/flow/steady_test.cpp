@@ -1,0 +1,111 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "core/mesh/plot3d.hpp"
+#include "test/flow/steady_case.hpp"
+
+namespace wingbeat {
+namespace {
+
+using namespace testing;
+
+// Cases of minutes are for the night: WINGBEAT_NIGHTLY=1.
+bool is_nightly() {
+  const char* value = std::getenv("WINGBEAT_NIGHTLY");
+  return value != nullptr && std::string(value) == "1";
+}
+
+struct Section {
+  const char* name;
+  double mach;
+  double angle_deg;
+};
+
+SteadySolution solve_section(const Section& s, int around, int normal, int blocks = 1, const Comm& ranks = Comm()) {
+  return solve_steady(FlowCase<2>(section_mesh(s.name, around, normal, blocks, 60.0), s.mach, s.angle_deg, 1.0, ranks));
+}
+
+TEST(SteadyFlow, ResidualFallsElevenAndAHalfOrdersThroughShocks) {
+  for (const Section& s : {Section{"naca0012", 0.8, 1.25}, {"naca0012", 0.85, 1.0}, {"naca64a010", 0.8, 0.0}}) {
+    const auto solution = solve_section(s, 128, 32);
+    EXPECT_EQ(solution.result.status, SolveStatus::converged) << s.name << " at Mach " << s.mach;
+    EXPECT_LE(std::log10(solution.result.residual), -11.49);
+    EXPECT_LE(solution.result.iterations, 60);
+  }
+}
+
+TEST(SteadyFlow, SymmetricSectionAtZeroIncidenceHasNoLift) {
+  const auto solution = solve_section({"naca64a010", 0.8, 0.0}, 96, 24);
+  EXPECT_LE(std::abs(solution.lift), 1e-10);
+  EXPECT_LE(std::abs(solution.moment), 1e-10);
+  EXPECT_GE(solution.drag, 1e-3) << "the shock's wave drag";
+}
+
+// Shock-free flow of an ideal gas has no drag: what is left is the scheme's.
+TEST(SteadyFlow, DragOfShockFreeFlowVanishesUnderRefinement) {
+  const Section s{"naca0012", 0.5, 1.25};
+  const auto coarse = solve_section(s, 64, 16), fine = solve_section(s, 128, 32);
+  EXPECT_GE(coarse.drag, 3.0 * fine.drag);
+  EXPECT_LE(std::abs(fine.drag), 1e-3);
+  // Thin-section theory with the Prandtl-Glauert factor and the thickness' few per cent.
+  const double thin = 2 * std::numbers::pi * s.angle_deg * std::numbers::pi / 180 / std::sqrt(1 - s.mach * s.mach);
+  EXPECT_NEAR(fine.lift / thin, 1.1, 0.1);
+  if (!is_nightly()) return;
+  const auto finest = solve_section(s, 512, 128);
+  EXPECT_EQ(finest.result.status, SolveStatus::converged);
+  EXPECT_LE(std::abs(finest.drag), 1e-5) << "C_L " << finest.lift;
+}
+
+TEST(SteadyFlow, SameForAnyNumberOfRanksAndBlocks) {
+  const Section s{"naca0012", 0.8, 1.25};
+  const auto alone = solve_section(s, 64, 16, 1, Comm(MPI_COMM_SELF));
+  for (int blocks : {1, 2, 5}) {
+    const auto together = solve_section(s, 64, 16, blocks);
+    ASSERT_EQ(together.result.status, SolveStatus::converged) << blocks << " blocks";
+    EXPECT_NEAR(together.lift, alone.lift, 1e-8) << blocks << " blocks";
+    EXPECT_NEAR(together.drag, alone.drag, 1e-8) << blocks << " blocks";
+    EXPECT_NEAR(together.moment, alone.moment, 1e-8) << blocks << " blocks";
+  }
+}
+
+// ADflow 2.13.1 (scalar JST, vis2 = 0.25, vis4 = 0.0156, scaling exponent 0.67) on 256 x 64 O-meshes
+// of this family, far field 60 chords, in the two-dimensional limit.
+struct Peer {
+  Section section;
+  double lift, drag, moment;
+};
+const Peer adflow_lifting{{"naca0012", 0.8, 1.25}, 0.35262047, 0.02266202, -0.03913974};
+const Peer adflow_symmetric{{"naca64a010", 0.8, 0.0}, 0.0, 0.00137418, 0.0};
+
+void expect_within_a_percent(const SteadySolution& solution, const Peer& peer) {
+  EXPECT_EQ(solution.result.status, SolveStatus::converged);
+  EXPECT_NEAR(solution.lift, peer.lift, 0.01 * std::abs(peer.lift) + 1e-10);
+  EXPECT_NEAR(solution.drag, peer.drag, 0.01 * peer.drag);
+  EXPECT_NEAR(solution.moment, peer.moment, 0.01 * std::abs(peer.moment) + 1e-10);
+}
+
+TEST(SteadyFlow, AgreesWithAnIndependentCodeOnGeneratedMeshes) {
+  if (!is_nightly()) GTEST_SKIP() << "set WINGBEAT_NIGHTLY=1";
+  for (const Peer& peer : {adflow_lifting, adflow_symmetric})
+    expect_within_a_percent(solve_section(peer.section, 256, 64), peer);
+}
+
+// The meshes the peer ran on, as Plot3D: NAME_256x64.x in the folder WINGBEAT_REFERENCE_MESHES.
+TEST(SteadyFlow, AgreesWithAnIndependentCodeOnItsOwnMeshes) {
+  const char* folder = std::getenv("WINGBEAT_REFERENCE_MESHES");
+  if (folder == nullptr) GTEST_SKIP() << "set WINGBEAT_REFERENCE_MESHES to the folder of the Plot3D meshes";
+  for (const Peer& peer : {adflow_lifting, adflow_symmetric}) {
+    const Section& s = peer.section;
+    auto mesh = read_plot3d(std::filesystem::path(folder) / (std::string(s.name) + "_256x64.x"));
+    const auto given = solve_steady(FlowCase<2>(std::get<MultiblockMesh<2>>(std::move(mesh)), s.mach, s.angle_deg));
+    const auto generated = solve_section(s, 256, 64);
+    expect_within_a_percent(given, peer);
+    EXPECT_NEAR(given.lift, generated.lift, 0.002 * std::abs(generated.lift) + 1e-8);
+    EXPECT_NEAR(given.drag, generated.drag, 0.002 * generated.drag);
+  }
+}
+
+}  // namespace
+}  // namespace wingbeat
