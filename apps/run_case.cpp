@@ -126,7 +126,7 @@ void write_failure(const CommandLine& command, Result& result, const Timer& time
 }  // namespace
 
 int run_case(const Comm& comm, const CommandLine& command) {
-  const FailureAgreement agreement(comm);
+  FailureAgreement agreement(comm);
   Timer timer;
   Result result{.command = command.verb, .ranks = comm.size(), .version = std::string(version())};
   Failure failure;

@@ -62,18 +62,21 @@ T min(const T& a, const T& b) {
 }
 
 // x^(-1/3) for x > 0 to 4 %: the bits of a positive double, read as an integer, are nearly linear
-// in its logarithm.
+// in its logarithm. The shift centres the error.
+template <class T>
+T inverse_cube_root_bits(const T& bits) {
+  constexpr double bits_of_one = 4607182418800017408.0, shift = 0.068 * 4503599627370496.0;
+  return (4.0 / 3.0 * bits_of_one - shift) - 1.0 / 3.0 * bits;
+}
 inline double rough_inverse_cube_root(double x) {
-  constexpr double bits_of_one = 4607182418800017408.0;
   const auto bits = static_cast<double>(std::bit_cast<std::int64_t>(x));
-  return std::bit_cast<double>(static_cast<std::int64_t>(bits_of_one - 1.0 / 3.0 * (bits - bits_of_one)));
+  return std::bit_cast<double>(static_cast<std::int64_t>(inverse_cube_root_bits(bits)));
 }
 inline Pack rough_inverse_cube_root(const Pack& x) {
-  using Integers = std::experimental::rebind_simd_t<std::int64_t, Pack>;
-  constexpr double bits_of_one = 4607182418800017408.0;
-  const auto bits = std::experimental::static_simd_cast<Pack>(std::bit_cast<Integers>(x));
-  return std::bit_cast<Pack>(
-      std::experimental::static_simd_cast<Integers>(bits_of_one - 1.0 / 3.0 * (bits - bits_of_one)));
+  using namespace std::experimental;
+  using Integers = rebind_simd_t<std::int64_t, Pack>;
+  const auto bits = static_simd_cast<Pack>(std::bit_cast<Integers>(x));
+  return std::bit_cast<Pack>(static_simd_cast<Integers>(inverse_cube_root_bits(bits)));
 }
 
 // x^(2/3) for x > 0, to round-off and without divisions: x y with y = x^(-1/3). A step of the

@@ -69,6 +69,20 @@ TEST_F(BadInput, NeitherAirfoilNorFile) {
   expect_refused(run_case("mesh", "[mesh]\ncells = [32, 8]\n"), "out", "give mesh.airfoil or mesh.file");
 }
 
+TEST_F(BadInput, EveryVerbChecksItsCaseFirst) {
+  for (const std::string verb : {"steady", "flutter", "pk", "mesh", "partition"})
+    expect_refused(run_case(verb, "[mesh]\nairfoil = \"naca0012\"\n[flow]\nmahc = 0.8\n"), "out",
+                   "case.toml:4: flow.mahc = 0.8: unknown key; did you mean flow.mach?");
+}
+
+TEST_F(BadInput, FlutterNamesEveryMissingKeyOfTheStructure) {
+  const auto run = run_case("flutter", "[mesh]\nairfoil = \"naca0012\"\n[structure]\nmass_ratio = 75\n");
+  expect_refused(run, "out", "4 faults in the case:");
+  for (const std::string key :
+       {"elastic_axis", "static_unbalance", "gyration_radius_squared", "frequency_ratio"})
+    expect_in("structure." + key + ": missing; wingbeat flutter needs it", run.errors);
+}
+
 TEST_F(BadInput, MissingCaseFile) {
   expect_refused(run({"mesh", "none.toml", "--output", "out"}), "out", "none.toml: cannot read the file");
 }

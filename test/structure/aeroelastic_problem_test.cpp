@@ -51,12 +51,12 @@ void expect_exact_jacobian(const std::string& section, int harmonics, double mea
     std::vector<double> product(u.size());
     problem.jacobian().apply(v, product);
     const double size = global_norm(c.comm(), product);
-    const auto coarse = difference(problem, u, v, 2e-3), fine = difference(problem, u, v, 1e-3);
     EXPECT_LE(global_distance(c.comm(), difference(problem, u, v, 1e-5), product), 1e-6 * size);
-    // Richardson: the error of second order cancels.
+    // Richardson: the error of second order cancels. Steps are of the size of w^, s w^ is what the flow sees.
+    const double h = harmonics > 0 ? 1e-3 : 1e-5;
+    const auto coarse = difference(problem, u, v, 2 * h), fine = difference(problem, u, v, h);
     std::vector<double> extrapolated(u.size());
     for (std::size_t i = 0; i < u.size(); ++i) extrapolated[i] = (4.0 * fine[i] - coarse[i]) / 3.0;
-    std::printf("jac %g rich %g\n", global_distance(c.comm(), difference(problem, u, v, 1e-5), product) / size, global_distance(c.comm(), extrapolated, product) / size);
     EXPECT_LE(global_distance(c.comm(), extrapolated, product), 1e-8 * size);
   }
 }
@@ -129,13 +129,15 @@ TEST(HarmonicPreconditioner, IsExactWhereTheInstancesAreAlike) {
   }
 }
 
-// Left over is what the instances differ by, which is proportional to the amplitude s.
+// Left over is what the instances differ by, which is proportional to the amplitude s. The base carries no load:
+// a static load that grows with r would be O(1/s) beside the fluctuating ones.
 TEST(BorderedPreconditioner, InvertsTheCoupledJacobianOfSmallMotions) {
   const Comm alone(MPI_COMM_SELF);
   std::vector<double> errors;
   for (double energy : {1e-8, 1e-12}) {
     CoupledCase c(section_mesh("naca0012", 32, 8), 0.7, 1, alone);
-    AeroelasticProblem<2>& problem = c.pose(disturbed_base(c), energy);
+    FlowEquations<2> one(c.flow_case.domain, c.flow_case.model, TimeSpectral(0));
+    AeroelasticProblem<2>& problem = c.pose({one.uniform_state(), std::vector<double>(4, 0.0), 0.0, 1.0}, energy);
     problem.linearize(disturbed_unknowns(c, 0.5));
     problem.refactor();
     const auto x = random_vector(alone, problem.local_size(), 3);
@@ -143,9 +145,8 @@ TEST(BorderedPreconditioner, InvertsTheCoupledJacobianOfSmallMotions) {
     problem.jacobian().apply(x, ax);
     errors.push_back(inversion_error(alone, problem.preconditioner(), ax, x));
   }
-  std::printf("bordered %g %g\n", errors[0], errors[1]);
-  EXPECT_LE(errors[1], 1e-3);
-  EXPECT_NEAR(errors[0] / errors[1], 100.0, 20.0);
+  EXPECT_LE(errors[1], 1e-4);
+  EXPECT_NEAR(errors[0] / errors[1], 100.0, 5.0);
 }
 
 TEST(BorderedPreconditioner, InvertsTheJacobianOfStaticEquilibrium) {
@@ -202,9 +203,10 @@ TEST(Flutter, NewtonConvergesQuadraticallyFromTheLinearSolution) {
   CoupledCase c(section_mesh("naca64a010", 64, 16, 1, 60.0), 0.8, 1);
   const auto solution = solve_flutter(c, 1e-4, exact_newton());
   EXPECT_EQ(solution.newton.status, SolveStatus::converged);
-  EXPECT_LE(solution.newton.iterations, 5);
-  for (double x : solution.norms) std::printf("norm %g\n", x);
-  std::printf("root %.9f %.9f  V %.9f omega %.9f\n", solution.root.reduced_velocity, solution.root.frequency, std::sqrt(solution.state.r), solution.state.omega);
+  ASSERT_GE(solution.norms.size(), 3U);
+  EXPECT_LE(solution.norms[1], 10.0 * std::pow(solution.norms[0], 2));
+  EXPECT_LE(solution.norms[2], 10.0 * std::pow(solution.norms[1], 2));
+  EXPECT_LE(solution.newton.iterations, 4);
 }
 
 TEST(Flutter, BoundaryIsTheSameOnAnyNumberOfRanks) {
@@ -223,16 +225,14 @@ TEST(Flutter, BoundaryIsTheSameOnAnyNumberOfRanks) {
   EXPECT_NEAR(std::sqrt(all.state.r), v, 1e-8 * v);
   EXPECT_NEAR(all.state.omega, one.state.omega, 1e-8);
   // The linear root is the limit of small amplitude.
-  EXPECT_NEAR(v, one.root.reduced_velocity, 1e-3 * v);
-  EXPECT_NEAR(one.state.omega, one.root.frequency, 1e-3);
-  std::printf("V %.10f %.10f root %.10f om %.10f %.10f its %d %d %g\n", v, std::sqrt(all.state.r), one.root.reduced_velocity, one.state.omega, all.state.omega, one.newton.iterations, one.newton.linear_iterations, one.residuals.flow);
+  EXPECT_NEAR(v, one.root.reduced_velocity, 1e-4 * v);
+  EXPECT_NEAR(one.state.omega, one.root.frequency, 1e-4);
 
   CoupledCase finer(section_mesh("naca64a010", 64, 16, 1, 60.0), 0.8, 2);
   const auto two = solve_flutter(finer, 1e-6, {});
   EXPECT_EQ(two.newton.status, SolveStatus::converged);
-  std::printf("NH2 V %.10f om %.10f \n", std::sqrt(two.state.r), two.state.omega);
-  EXPECT_NEAR(std::sqrt(two.state.r), v, 1e-4 * v);
-  EXPECT_NEAR(two.state.omega, one.state.omega, 1e-4);
+  EXPECT_NEAR(std::sqrt(two.state.r), v, 2e-5 * v);
+  EXPECT_NEAR(two.state.omega, one.state.omega, 2e-5);
 }
 
 TEST(StaticEquilibrium, OfACamberedSectionBalancesSpringsAndLoads) {
@@ -256,7 +256,6 @@ TEST(StaticEquilibrium, OfACamberedSectionBalancesSpringsAndLoads) {
   EXPECT_GE(loads.force_y, 0.2) << "a cambered section lifts";
   EXPECT_LE(plunge_b, -1e-3) << "and rises: plunge is positive down";
   EXPECT_EQ(state.y[2], 0.0);
-  std::printf("static h %g a %g cl %g cm %g its %d\n", plunge_b, twist, loads.force_y, loads.moment, result.iterations);
 }
 
 }  // namespace

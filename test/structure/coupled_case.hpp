@@ -113,7 +113,6 @@ inline FlutterSolution solve_flutter(CoupledCase& c, double energy, const Newton
     solution.norms.push_back(it.residual_norm);
     return true;
   });
-  solution.norms.push_back(solution.newton.residual_norm);
   problem.residual(u, f);
   solution.residuals = problem.measure(f);
   solution.state = problem.state(u);
