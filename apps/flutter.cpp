@@ -54,13 +54,13 @@ void report_flutter(Context& context, const StructureModel& model, const TimeSpe
                     const AeroelasticState& state, const AeroelasticResiduals& residuals, const NewtonResult& newton) {
   const double v = section_kinematics(context.settings).reduced_velocity(state.r);
   const Eigen::VectorXcd u = first_harmonic(model, time, state.y);
-  const double pitch_deg = std::abs(u[pitch]) * 180.0 / std::numbers::pi;
+  const double pitch_deg = std::abs(u[pitch_mode]) * 180.0 / std::numbers::pi;
   auto entry = flutter_point(context.settings, v, state.omega);
   entry["freestream_parameter"] = state.r;
   entry["energy"] = fluctuating_energy(model, state.y);
   entry["average_energy"] = average_energy(model, state.y);
   entry["pitch_amplitude_deg"] = pitch_deg;
-  entry["plunge_amplitude"] = std::abs(u[plunge]);
+  entry["plunge_amplitude"] = std::abs(u[plunge_mode]);
   entry["residuals"] = {{"flow", residuals.flow},
                         {"structure", residuals.structure},
                         {"phase", residuals.phase},
@@ -75,7 +75,7 @@ void report_flutter(Context& context, const StructureModel& model, const TimeSpe
   context.log.line("{:<34}{:.8f}", "speed index 2V/sqrt(mu)", entry["speed_index"].get<double>());
   context.log.line("{:<34}{:.8f}", "frequency ratio omega/w_a", state.omega);
   context.log.line("{:<34}{:.8f}", "reduced frequency k", state.omega / (2.0 * v));
-  context.log.line("{:<34}{:.6f} deg, plunge {:.3e} semichords", "pitch amplitude", pitch_deg, std::abs(u[plunge]));
+  context.log.line("{:<34}{:.6f} deg, plunge {:.3e} semichords", "pitch amplitude", pitch_deg, std::abs(u[plunge_mode]));
   context.log.line("{:<34}flow {:.1e}, structure {:.1e}, phase {:.1e}, energy {:.1e}", "residuals", residuals.flow,
                    residuals.structure, residuals.phase, residuals.energy);
   context.log.line("{:<34}{} Newton, {} Krylov, {} new factorizations\n", "iterations", newton.iterations,

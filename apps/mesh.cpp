@@ -8,7 +8,6 @@
 namespace wingbeat {
 
 SolveStatus run_mesh(Context& context) {
-  constexpr double plot_margin = 0.5;  // chords around the section that pictures show
   const AnyMesh mesh = make_case_mesh(context.settings.mesh);
   std::visit(
       [&]<int Dim>(const MultiblockMesh<Dim>& built) {
@@ -16,7 +15,7 @@ SolveStatus run_mesh(Context& context) {
         context.log.line(format_quality(built, quality));
         on_root(context.comm, [&] {
           write_cgns(built, context.output / "mesh.cgns");
-          if constexpr (Dim == 2) near_wall_nodes(built, plot_margin).write(context.output / "mesh.csv");
+          if constexpr (Dim == 2) near_wall_nodes(built).write(context.output / "mesh.csv");
         });
         context.result.findings["mesh"] = {{"dimension", Dim},
                                            {"blocks", quality.zones},

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "apps/flow_setup.hpp"
+#include "apps/mesh_table.hpp"
 #include "apps/on_root.hpp"
 #include "core/io/csv.hpp"
 #include "core/io/error.hpp"
@@ -58,16 +59,6 @@ SolutionInstance<2> instance_of(const MultiblockMesh<2>& mesh, const double* w, 
   return instance;
 }
 
-void write_mesh_table(const Context& context, const MultiblockMesh<2>& mesh) {
-  CsvTable table({"zone", "i", "j", "x", "y"});
-  for (const Zone<2>& zone : mesh.zones)
-    for_each(zone.nodes.interior(), [&](const Index<2>& node) {
-      const auto& x = zone.nodes(node);
-      table.add({zone.name, static_cast<long>(node[0]), static_cast<long>(node[1]), x[0], x[1]});
-    });
-  table.write(context.output / "mesh.csv");
-}
-
 void write_surface(const Context& context, const FlowLevel<2>& level, const AeroelasticState& state) {
   const TimeSpectral time(static_cast<int>(state.y.size() / 4 - 1) / 2);
   CsvTable table({"instance", "phase", "block", "x", "y", "x_body", "y_body", "cp", "mach"});
@@ -108,7 +99,7 @@ void write_solution_files(const Context& context, const FlowLevel<2>& level, con
     solution.data["reduced_velocity"] = {kinematics.reduced_velocity(state.r)};
     solution.data["mach"] = {context.settings.flow.mach};
     write_solution<2>(context.output / "solution.cgns", level.mesh, solution);
-    write_mesh_table(context, level.mesh);
+    near_wall_nodes(level.mesh).write(context.output / "mesh.csv");
   });
   write_surface(context, level, state);
 }

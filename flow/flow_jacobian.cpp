@@ -117,24 +117,33 @@ struct FaceScatter {
   }
 };
 
+// Faces of direction d at the low side of the cells of a plane, the last index constant; with the
+// last plane of that direction, those at its high side, too.
+template <int Dim>
+Box<Dim> faces_of_plane(const Index<Dim>& extents, int plane, int d) {
+  Box<Dim> faces = box_of<Dim>(extents);
+  faces.begin[Dim - 1] = plane;
+  faces.end[Dim - 1] = plane + 1;
+  if (d < Dim - 1 || plane + 1 == extents[d]) ++faces.end[d];
+  return faces;
+}
+
 // Flattened, as the sweeps of the balance are: packs and blocks stay in registers.
 template <int Dim>
-[[gnu::flatten]] void assemble_interior(const FlowBlock<Dim>& block, const RigidMotion<double>& motion, int d,
-                                        const JstCoefficients& jst, const CellDerivatives<Dim>& cells,
+[[gnu::flatten]] void assemble_interior(const FlowBlock<Dim>& block, const RigidMotion<Pack>& motion, int d,
+                                        const Box<Dim>& faces, const JstCoefficients& jst,
+                                        const CellDerivatives<Dim>& cells,
                                         BlockSparse<state_size<Dim>>& matrix) {
   const auto& layout = block.geometry.layout;
   const std::ptrdiff_t step = layout.strides[d];
-  const auto wide_motion = widen(motion);
   const auto exists = [&](std::ptrdiff_t o) { return block.number[static_cast<std::size_t>(o)] >= 0; };
   const auto owns_row = [&](std::ptrdiff_t o) {
     return cells.positions[0][static_cast<std::size_t>(o)] >= 0;
   };
-  Box<Dim> faces = box_of<Dim>(layout.extents);
-  ++faces.end[d];
   const std::ptrdiff_t last = layout.last(faces);
   FaceGradients<Dim> gradients;
   for (std::ptrdiff_t o = layout.first(faces); o < last; o += lanes<Pack>) {
-    differentiate_faces<Dim>(block.geometry, cells.state, wide_motion, d, o, jst, gradients);
+    differentiate_faces<Dim>(block.geometry, cells.state, motion, d, o, jst, gradients);
     for (std::ptrdiff_t face = o; face < std::min(o + lanes<Pack>, last); ++face) {
       const bool interior = exists(face - step) && exists(face);
       if (!interior || !(owns_row(face - step) || owns_row(face))) continue;
@@ -263,13 +272,20 @@ template <int Dim>
 void FlowJacobian<Dim>::assemble(std::span<const double> w, std::span<const double> ghosts,
                                  const RigidMotion<double>& motion, BlockSparse<state_size<Dim>>& matrix) {
   matrix.set_zero();
+  const auto wide_motion = widen(motion);
   const double gamma = model_.freestream.gamma;
   for (std::size_t b = 0; b < cells_.size(); ++b) {
     const FlowBlock<Dim>& block = domain_.blocks()[b];
     CellDerivatives<Dim>& cells = cells_[b];
     load_block<Dim, double>(block, domain_.owned_count(), w, ghosts, gamma, cells.state);
     differentiate_cells<Dim>(block.geometry, motion, gamma, cells);
-    for (int d = 0; d < Dim; ++d) assemble_interior<Dim>(block, motion, d, model_.jst, cells, matrix);
+    // Plane by plane, so that the rows of a plane stay in cache while the faces of all directions
+    // add to them.
+    const auto& extents = block.geometry.layout.extents;
+    for (int plane = 0; plane < extents[Dim - 1]; ++plane)
+      for (int d = 0; d < Dim; ++d)
+        assemble_interior<Dim>(block, wide_motion, d, faces_of_plane<Dim>(extents, plane, d), model_.jst,
+                               cells, matrix);
     assemble_boundary<Dim>(block, motion, model_, cells, matrix);
   }
 }

@@ -68,10 +68,10 @@ Eigen::MatrixXcd LinearizedSection<Dim>::aerodynamic_matrix(double k) {
   const HarmonicResponse response = response_.at(kappa(k));
   constexpr double b = SectionKinematics::semichord;
   Eigen::MatrixXcd q(2, 2);
-  q(0, plunge) = -b * response.plunge_loads[0];
-  q(1, plunge) = 2.0 * b * response.plunge_loads[1];
-  q(0, pitch) = -response.pitch_loads[0];
-  q(1, pitch) = 2.0 * response.pitch_loads[1];
+  q(0, plunge_mode) = -b * response.plunge_loads[0];
+  q(1, plunge_mode) = 2.0 * b * response.plunge_loads[1];
+  q(0, pitch_mode) = -response.pitch_loads[0];
+  q(1, pitch_mode) = 2.0 * response.pitch_loads[1];
   return q;
 }
 
@@ -84,11 +84,11 @@ AeroelasticState LinearizedSection<Dim>::harmonic_state(const StructureModel& mo
   state.omega = omega;
   state.r = std::pow(reduced_velocity / kinematics_.reference_velocity, 2);
   state.y = harmonic_states(model, time, u_hat, omega);
-  const std::complex<double> plunge_in_chords = SectionKinematics::semichord * u_hat[plunge];
+  const std::complex<double> plunge_in_chords = SectionKinematics::semichord * u_hat[plunge_mode];
   for (int n = 0; n < time.instances(); ++n) {
     for (std::size_t j = 0; j < 4; ++j) state.y[4 * static_cast<std::size_t>(n) + j] += rest_.y[j];
     const std::complex<double> turn = std::polar(1.0, time.phase(n));
-    const auto plunge_turn = turn * plunge_in_chords, pitch_turn = turn * u_hat[pitch];
+    const auto plunge_turn = turn * plunge_in_chords, pitch_turn = turn * u_hat[pitch_mode];
     for (std::size_t i = 0; i < rest_.w.size(); ++i)
       state.w.push_back(rest_.w[i] + (plunge_turn * response.plunge[i] + pitch_turn * response.pitch[i]).real());
   }

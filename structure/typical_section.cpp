@@ -49,7 +49,7 @@ StructureModel structure_model(const TypicalSection& section) {
           .asDiagonal();
   model.damping = modal_damping(model, Eigen::Vector2d(section.damping[0], section.damping[1]));
   model.load_factor = 4.0 / (std::numbers::pi * section.mass_ratio);
-  model.phase_mode = pitch;
+  model.phase_mode = pitch_mode;
   return model;
 }
 

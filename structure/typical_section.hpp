@@ -17,8 +17,8 @@ struct TypicalSection {
   std::array<double, 2> damping{};       // fraction of critical of the vacuum modes, by frequency
 };
 
-inline constexpr int plunge = 0;
-inline constexpr int pitch = 1;
+inline constexpr int plunge_mode = 0;
+inline constexpr int pitch_mode = 1;
 
 // Elastic axis in chords from the leading edge, x_ea = (1 + a)/2.
 double elastic_axis_in_chords(const TypicalSection& section);

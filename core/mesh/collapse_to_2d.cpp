@@ -91,10 +91,10 @@ Interface<2> collapsed(const Interface<3>& connection, int thin, int donor_thin)
   result.donor = connection.donor;
   result.donor_side = without(connection.donor_side, donor_thin);
   result.donor_origin = without(connection.donor_origin, donor_thin);
-  for (int d = 0; d < 3; ++d) {
-    if (d == thin) continue;
-    result.axis[direction_without(d, thin)] = direction_without(connection.axis[d], donor_thin);
-    result.sign[direction_without(d, thin)] = connection.sign[d];
+  for (int kept = 0; kept < 2; ++kept) {
+    const int d = kept < thin ? kept : kept + 1;
+    result.axis[kept] = direction_without(connection.axis[d], donor_thin);
+    result.sign[kept] = connection.sign[d];
   }
   return result;
 }

@@ -22,12 +22,14 @@ struct FlowCase {
   FlowDomain<Dim> domain;
   FlowModel<Dim, double> model;
 
-  FlowCase(MultiblockMesh<Dim> m, double mach, double angle_deg, double smoothing = 1.0, const Comm& ranks = Comm())
+  FlowCase(MultiblockMesh<Dim> m, double mach, double angle_deg, double smoothing = 1.0,
+           const Comm& ranks = Comm())
       : comm(ranks),
         mesh(std::move(m)),
         local(build_local_mesh<Dim>(mesh, partition_mesh<Dim>(mesh, comm.size(), {}), comm.rank())),
         domain(comm, local, {{{0.2, 0.0}}}),
-        model{{1.4, mach, std::cos(angle_deg * std::numbers::pi / 180), std::sin(angle_deg * std::numbers::pi / 180)},
+        model{{1.4, mach, std::cos(angle_deg * std::numbers::pi / 180),
+               std::sin(angle_deg * std::numbers::pi / 180)},
               {0.25, 1.0 / 64.0, smoothing}} {}
 };
 
@@ -72,8 +74,10 @@ MultiblockMesh<Dim> bent_box(const Index<Dim>& cells, double bend = 0.03) {
   for (int d = 0; d < Dim; ++d)
     for (int end : {0, 1}) {
       Box<Dim> layer = box_of<Dim>(cells);
-      if (end == 0) layer.end[d] = 1;
-      else layer.begin[d] = cells[d] - 1;
+      if (end == 0)
+        layer.end[d] = 1;
+      else
+        layer.begin[d] = cells[d] - 1;
       zone.patches.push_back({"side", "", BoundaryType::farfield, {d, end}, layer});
     }
   MultiblockMesh<Dim> mesh;
@@ -83,7 +87,8 @@ MultiblockMesh<Dim> bent_box(const Index<Dim>& cells, double bend = 0.03) {
 
 // Reproducible number in [-1, 1] for an entry, the same on any number of ranks.
 inline double noise(long cell, int variable, int seed) {
-  std::mt19937_64 generator(static_cast<std::uint64_t>(cell * 64 + variable) * 977 + static_cast<std::uint64_t>(seed));
+  std::mt19937_64 generator(static_cast<std::uint64_t>(cell * 64 + variable) * 977 +
+                            static_cast<std::uint64_t>(seed));
   generator.discard(3);
   return std::uniform_real_distribution<double>(-1.0, 1.0)(generator);
 }
@@ -100,7 +105,8 @@ std::vector<double> noise_field(const FlowCase<Dim>& c, int instances, int seed)
 
 // Uniform flow disturbed by a few percent in every entry.
 template <int Dim>
-std::vector<double> disturbed_state(const FlowCase<Dim>& c, const FlowEquations<Dim>& flow, double size, int seed) {
+std::vector<double> disturbed_state(const FlowCase<Dim>& c, const FlowEquations<Dim>& flow, double size,
+                                    int seed) {
   std::vector<double> w = flow.uniform_state();
   const auto disturbance = noise_field(c, static_cast<int>(flow.instance_count()), seed);
   for (std::size_t i = 0; i < w.size(); ++i) w[i] += size * disturbance[i];
@@ -112,6 +118,8 @@ inline double global_dot(const Comm& comm, std::span<const double> a, std::span<
   for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
   return comm.sum(sum);
 }
-inline double global_norm(const Comm& comm, std::span<const double> a) { return std::sqrt(global_dot(comm, a, a)); }
+inline double global_norm(const Comm& comm, std::span<const double> a) {
+  return std::sqrt(global_dot(comm, a, a));
+}
 
 }  // namespace wingbeat::testing

@@ -29,7 +29,8 @@ Defects largest_defects(const FlowCase<Dim>& c, const RigidMotion<double>& motio
       double sweep = 0.0, area = 0.0, swept = 0.0;
       for (int d = 0; d < Dim; ++d) {
         const auto low = moved_face<Dim, double>(block.geometry, motion, d, o);
-        const auto high = moved_face<Dim, double>(block.geometry, motion, d, o + block.geometry.layout.strides[d]);
+        const auto high =
+            moved_face<Dim, double>(block.geometry, motion, d, o + block.geometry.layout.strides[d]);
         closure += high.normal - low.normal;
         sweep += high.sweep - low.sweep;
         area = std::max(area, std::sqrt(dot(high.normal, high.normal)));
@@ -92,9 +93,8 @@ template <int Dim>
 BlockGeometry<Dim> geometry_of(const Index<Dim>& cells,
                                const std::function<Vec<double, Dim>(const Vec<double, Dim>&)>& place) {
   auto mesh = bent_box<Dim>(cells, 0.0);
-  for_each(mesh.zones[0].nodes.interior(), [&](const Index<Dim>& node) {
-    mesh.zones[0].nodes(node) = place(mesh.zones[0].nodes(node));
-  });
+  for_each(mesh.zones[0].nodes.interior(),
+           [&](const Index<Dim>& node) { mesh.zones[0].nodes(node) = place(mesh.zones[0].nodes(node)); });
   const FlowCase<Dim> c(std::move(mesh), 0.5, 0.0, 1.0, Comm(MPI_COMM_SELF));
   return c.domain.blocks()[0].geometry;
 }
@@ -169,9 +169,14 @@ MultiblockMesh<3> extruded(const MultiblockMesh<2>& plane, double span) {
     zone.nodes(node) = {{{x[0], x[1], span * node[2]}}};
   });
   for (const auto& patch : flat.patches)
-    zone.patches.push_back({patch.name, "", patch.type, patch.side,
-                            {{patch.cells.begin[0], patch.cells.begin[1], 0}, {patch.cells.end[0], patch.cells.end[1], 1}}});
-  for (int end : {0, 1}) zone.patches.push_back({"side", "", BoundaryType::symmetry, {2, end}, box_of<3>(zone.cells)});
+    zone.patches.push_back(
+        {patch.name,
+         "",
+         patch.type,
+         patch.side,
+         {{patch.cells.begin[0], patch.cells.begin[1], 0}, {patch.cells.end[0], patch.cells.end[1], 1}}});
+  for (int end : {0, 1})
+    zone.patches.push_back({"side", "", BoundaryType::symmetry, {2, end}, box_of<3>(zone.cells)});
   MultiblockMesh<3> mesh;
   mesh.zones.push_back(std::move(zone));
   return mesh;
@@ -187,7 +192,8 @@ double largest_difference_to_plane_flow(double span) {
   FlowEquations<3> solid_flow(solid.domain, solid.model, TimeSpectral(1));
   const auto w = disturbed_state(flat, flat_flow, 0.03, 4);
   std::vector<double> solid_w;
-  for (std::size_t i = 0; i < w.size(); i += 4) solid_w.insert(solid_w.end(), {w[i], w[i + 1], w[i + 2], 0.0, w[i + 3]});
+  for (std::size_t i = 0; i < w.size(); i += 4)
+    solid_w.insert(solid_w.end(), {w[i], w[i + 1], w[i + 2], 0.0, w[i + 3]});
   const std::vector<MotionState> motions{{0.03, 0.02, -0.01}, {-0.05, 0.04, 0.03}, {0.02, -0.06, 0.02}};
   std::vector<double> r(w.size()), solid_r(solid_w.size());
   flat_flow.residual(w, motions, 0.3, r);

@@ -16,7 +16,9 @@ class Sampler {
  public:
   explicit Sampler(unsigned seed) : generator_(seed) {}
 
-  double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(generator_); }
+  double between(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(generator_);
+  }
 
   template <int Dim>
   Vec<double, Dim> vector(double size) {
@@ -92,7 +94,8 @@ State<Dim, T> jst_flux_of_cells(const Vec<State<Dim, T>, 4>& w, const Vec<Vec<do
   Vec<T, Dim> normal;
   for (int d = 0; d < Dim; ++d) normal[d] = T(normals[0][d]);
   return jst_flux<Dim, T>(cells, pressure_sensor<T>(cells.p[0], cells.p[1], cells.p[2], jst),
-                          pressure_sensor<T>(cells.p[1], cells.p[2], cells.p[3], jst), normal, T(sweeps[0]), jst);
+                          pressure_sensor<T>(cells.p[1], cells.p[2], cells.p[3], jst), normal, T(sweeps[0]),
+                          jst);
 }
 
 // Three independent directions of a cell of aspect ratio up to `stretch`.

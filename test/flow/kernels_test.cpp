@@ -94,7 +94,8 @@ TEST(FlowKernels, PlaneFlowInSpaceGivesTheNumbersOfTheTwoDimensionalKernels) {
     const auto w = sample.line<2>(0.2);
     const auto normal = sample.vector<2>(1.0);
     const double sweep = sample.between(-0.3, 0.3);
-    expect_close(embedded(exact_flux<2>(w[0], normal, sweep)), exact_flux<3>(embedded(w[0]), embedded(normal), sweep));
+    expect_close(embedded(exact_flux<2>(w[0], normal, sweep)),
+                 exact_flux<3>(embedded(w[0]), embedded(normal), sweep));
     expect_close(embedded(wall_flux<2, double, double>(0.9, normal, sweep)),
                  wall_flux<3, double, double>(0.9, embedded(normal), sweep));
     expect_close(
@@ -143,17 +144,21 @@ TEST(FlowKernels, PackLanesAreTheDoubleResults) {
     const auto jst_pack = jst_flux_of_cells<2, Pack>(packed, normals, sweeps, jst);
     for (int lane = 0; lane < count; ++lane) {
       const auto jst_double = jst_flux_of_cells<2, double>(lines[lane], normals, sweeps, jst);
-      for (int v = 0; v < 4; ++v) EXPECT_NEAR(jst_pack[v][lane], jst_double[v], round_off) << lane << ' ' << v;
+      for (int v = 0; v < 4; ++v)
+        EXPECT_NEAR(jst_pack[v][lane], jst_double[v], round_off) << lane << ' ' << v;
     }
   }
-  const auto euler_pack = euler_flux<2, Pack, Pack>(packed[0], pressure<2, Pack>(packed[0], gamma_air), normal, sweep);
-  const Pack p_wall = wall_pressure<Pack>(pressure<2, Pack>(packed[1], gamma_air), pressure<2, Pack>(packed[2], gamma_air));
+  const auto euler_pack =
+      euler_flux<2, Pack, Pack>(packed[0], pressure<2, Pack>(packed[0], gamma_air), normal, sweep);
+  const Pack p_wall =
+      wall_pressure<Pack>(pressure<2, Pack>(packed[1], gamma_air), pressure<2, Pack>(packed[2], gamma_air));
   for (int lane = 0; lane < count; ++lane) {
     const auto& w = lines[lane];
     const auto euler = exact_flux<2>(w[0], normals[0], sweeps[0]);
     for (int v = 0; v < 4; ++v) EXPECT_NEAR(euler_pack[v][lane], euler[v], round_off);
     EXPECT_NEAR(p_wall[lane],
-                wall_pressure(pressure<2, double>(w[1], gamma_air), pressure<2, double>(w[2], gamma_air)), round_off);
+                wall_pressure(pressure<2, double>(w[1], gamma_air), pressure<2, double>(w[2], gamma_air)),
+                round_off);
   }
 }
 
@@ -174,7 +179,8 @@ void expect_gradients(const Vec<double, Inputs>& at, const Kernel& kernel) {
     down[i] -= h;
     const auto high = kernel(up), low = kernel(down);
     for (int v = 0; v < exact.size(); ++v)
-      EXPECT_NEAR(exact[v].gradient[i], (high[v] - low[v]) / (2 * h), 2e-8 * (1.0 + std::abs(exact[v].gradient[i])))
+      EXPECT_NEAR(exact[v].gradient[i], (high[v] - low[v]) / (2 * h),
+                  2e-8 * (1.0 + std::abs(exact[v].gradient[i])))
           << "row " << v << ", column " << i;
   }
 }
@@ -209,7 +215,8 @@ void expect_kernel_gradients() {
                                        normals[0], sweeps[0]);
     });
     expect_gradients(flattened<Dim, 2>(w), [&]<class T, int N>(const Vec<T, N>& x) {
-      return farfield_flux<Dim, T, double>(cell_of<Dim>(x, 0), cell_of<Dim>(x, 1), normals[0], sweeps[0], gamma_air);
+      return farfield_flux<Dim, T, double>(cell_of<Dim>(x, 0), cell_of<Dim>(x, 1), normals[0], sweeps[0],
+                                           gamma_air);
     });
     // The classical switches are differentiable, too, away from their kinks.
     for (const auto& jst : {smooth, classical})
@@ -233,7 +240,8 @@ TEST(JstSwitches, TendToTheClassicalOnesAsTheSmoothingFalls) {
     const double width = sigma * jst.threshold();
     double largest = 0.0;
     for (double p : {0.7, 0.95, 1.0, 1.02, 1.4}) {
-      const double gap = std::abs(pressure_sensor(1.0, p, 1.1, jst) - pressure_sensor(1.0, p, 1.1, classical));
+      const double gap =
+          std::abs(pressure_sensor(1.0, p, 1.1, jst) - pressure_sensor(1.0, p, 1.1, classical));
       EXPECT_LE(gap, width * (1.0 + 1e-9) + round_off);
       largest = std::max(largest, gap);
     }
@@ -265,7 +273,9 @@ TEST(JstDissipation, SecondAndFourthDifferencesActOnTotalEnthalpy) {
     double expected = 0.0;
     for (int k = 0; k < 4; ++k) {
       const double entry = cells.w[k][v] + (v == 3 ? cells.p[k] : 0.0);
-      expected += (0.3 * first_difference[static_cast<std::size_t>(k)] - 0.02 * third_difference[static_cast<std::size_t>(k)]) * entry;
+      expected += (0.3 * first_difference[static_cast<std::size_t>(k)] -
+                   0.02 * third_difference[static_cast<std::size_t>(k)]) *
+                  entry;
     }
     EXPECT_NEAR(d[v], expected, round_off);
   }

@@ -26,8 +26,8 @@ AeroelasticState disturbed_base(CoupledCase& c) {
 }
 
 // Central difference of the residual in direction v.
-std::vector<double> difference(AeroelasticProblem<2>& problem, std::span<const double> u, std::span<const double> v,
-                               double h) {
+std::vector<double> difference(AeroelasticProblem<2>& problem, std::span<const double> u,
+                               std::span<const double> v, double h) {
   std::vector<double> up(u.begin(), u.end()), down = up, high(u.size()), low(u.size());
   for (std::size_t i = 0; i < u.size(); ++i) up[i] += h * v[i], down[i] -= h * v[i];
   EXPECT_TRUE(problem.residual(up, high) && problem.residual(down, low));
@@ -53,7 +53,7 @@ void expect_exact_jacobian(const std::string& section, int harmonics, double mea
     const double size = global_norm(c.comm(), product);
     EXPECT_LE(global_distance(c.comm(), difference(problem, u, v, 1e-5), product), 1e-6 * size);
     // Richardson: the error of second order cancels. Steps are of the size of w^, s w^ is what the flow sees.
-    const double h = harmonics > 0 ? 1e-3 : 1e-5;
+    const double h = harmonics > 0 || tail_only ? 1e-3 : 1e-5;
     const auto coarse = difference(problem, u, v, 2 * h), fine = difference(problem, u, v, h);
     std::vector<double> extrapolated(u.size());
     for (std::size_t i = 0; i < u.size(); ++i) extrapolated[i] = (4.0 * fine[i] - coarse[i]) / 3.0;
@@ -72,7 +72,8 @@ TEST(AeroelasticProblem, UnknownsAndStateAreInverse) {
   CoupledCase c(section_mesh("naca0012", 32, 8), 0.75, 1);
   AeroelasticProblem<2>& problem = c.pose(disturbed_base(c), 1e-4);
   const auto u = disturbed_unknowns(c, 0.5);
-  EXPECT_LE(global_distance(c.comm(), problem.unknowns(problem.state(u)), u), 1e-12 * global_norm(c.comm(), u));
+  EXPECT_LE(global_distance(c.comm(), problem.unknowns(problem.state(u)), u),
+            1e-12 * global_norm(c.comm(), u));
 }
 
 TEST(AeroelasticProblem, PreconditionersHaveTheirTransposes) {
@@ -129,15 +130,16 @@ TEST(HarmonicPreconditioner, IsExactWhereTheInstancesAreAlike) {
   }
 }
 
-// Left over is what the instances differ by, which is proportional to the amplitude s. The base carries no load:
-// a static load that grows with r would be O(1/s) beside the fluctuating ones.
+// Left over is what the instances differ by, which is proportional to the amplitude s. The base carries no
+// load: a static load that grows with r would be O(1/s) beside the fluctuating ones.
 TEST(BorderedPreconditioner, InvertsTheCoupledJacobianOfSmallMotions) {
   const Comm alone(MPI_COMM_SELF);
   std::vector<double> errors;
   for (double energy : {1e-8, 1e-12}) {
     CoupledCase c(section_mesh("naca0012", 32, 8), 0.7, 1, alone);
     FlowEquations<2> one(c.flow_case.domain, c.flow_case.model, TimeSpectral(0));
-    AeroelasticProblem<2>& problem = c.pose({one.uniform_state(), std::vector<double>(4, 0.0), 0.0, 1.0}, energy);
+    AeroelasticProblem<2>& problem =
+        c.pose({one.uniform_state(), std::vector<double>(4, 0.0), 0.0, 1.0}, energy);
     problem.linearize(disturbed_unknowns(c, 0.5));
     problem.refactor();
     const auto x = random_vector(alone, problem.local_size(), 3);
@@ -171,7 +173,8 @@ TEST(FrequencyResponse, SolvesTheLinearizedEquation) {
   for (double kappa : {0.2, 0.25}) {
     const HarmonicResponse at = response.at(kappa);
     std::vector<double> real(w.size()), imaginary(w.size()), defect(w.size());
-    for (std::size_t i = 0; i < w.size(); ++i) real[i] = at.pitch[i].real(), imaginary[i] = at.pitch[i].imag();
+    for (std::size_t i = 0; i < w.size(); ++i)
+      real[i] = at.pitch[i].real(), imaginary[i] = at.pitch[i].imag();
     // The real part: J Re w^ - kappa Omega Im w^ = -dR/dalpha.
     one.apply(real, defect);
     const auto& by_pitch = one.motion_gradients(0)[0];
@@ -200,7 +203,7 @@ NewtonOptions exact_newton() {
 const AeroelasticTolerances tolerances{};
 
 TEST(Flutter, NewtonConvergesQuadraticallyFromTheLinearSolution) {
-  CoupledCase c(section_mesh("naca64a010", 64, 16, 1, 60.0), 0.8, 1);
+  CoupledCase c(section_mesh("naca64a010", 64, 16, 1, 60.0), 0.8, 1, Comm(MPI_COMM_SELF));
   const auto solution = solve_flutter(c, 1e-4, exact_newton());
   EXPECT_EQ(solution.newton.status, SolveStatus::converged);
   ASSERT_GE(solution.norms.size(), 3U);
@@ -209,7 +212,7 @@ TEST(Flutter, NewtonConvergesQuadraticallyFromTheLinearSolution) {
   EXPECT_LE(solution.newton.iterations, 4);
 }
 
-TEST(Flutter, BoundaryIsTheSameOnAnyNumberOfRanks) {
+TEST(Flutter, BoundaryIsThatOfTheLinearRootOnAnyNumberOfRanksAndHarmonics) {
   CoupledCase alone(section_mesh("naca64a010", 64, 16, 1, 60.0), 0.8, 1, Comm(MPI_COMM_SELF));
   CoupledCase together(section_mesh("naca64a010", 64, 16, 3, 60.0), 0.8, 1);
   const auto one = solve_flutter(alone, 1e-6, {}), all = solve_flutter(together, 1e-6, {});
@@ -228,7 +231,8 @@ TEST(Flutter, BoundaryIsTheSameOnAnyNumberOfRanks) {
   EXPECT_NEAR(v, one.root.reduced_velocity, 1e-4 * v);
   EXPECT_NEAR(one.state.omega, one.root.frequency, 1e-4);
 
-  CoupledCase finer(section_mesh("naca64a010", 64, 16, 1, 60.0), 0.8, 2);
+  // A second harmonic changes the answer in proportion to the energy.
+  CoupledCase finer(section_mesh("naca64a010", 64, 16, 1, 60.0), 0.8, 2, Comm(MPI_COMM_SELF));
   const auto two = solve_flutter(finer, 1e-6, {});
   EXPECT_EQ(two.newton.status, SolveStatus::converged);
   EXPECT_NEAR(std::sqrt(two.state.r), v, 2e-5 * v);
@@ -239,7 +243,8 @@ TEST(StaticEquilibrium, OfACamberedSectionBalancesSpringsAndLoads) {
   CoupledCase c(section_mesh("naca2412", 64, 16, 2), 0.5, 0);
   const double v = 1.2, mean_pitch = 0.01;
   const std::vector<double> rigid = steady_state(c, mean_pitch);
-  AeroelasticProblem<2>& problem = c.pose({rigid, std::vector<double>(4, 0.0), 0.0, v * v}, std::nullopt, mean_pitch);
+  AeroelasticProblem<2>& problem =
+      c.pose({rigid, std::vector<double>(4, 0.0), 0.0, v * v}, std::nullopt, mean_pitch);
   std::vector<double> u(problem.local_size(), 0.0), f(u.size());
   const auto result = newton(c.comm(), problem, u, exact_newton());
   EXPECT_EQ(result.status, SolveStatus::converged);
@@ -251,7 +256,8 @@ TEST(StaticEquilibrium, OfACamberedSectionBalancesSpringsAndLoads) {
   const double plunge_b = state.y[0], twist = state.y[1];
   const Loads<double> loads = c.flow.loads(state.w, problem.motions(state))[0];
   const double pressure_scale = 4.0 * v * v / (std::numbers::pi * paper_section.mass_ratio);
-  EXPECT_NEAR(0.25 * plunge_b, -pressure_scale * loads.force_y, 1e-10) << "plunge spring: (omega_h/omega_alpha)^2 h/b";
+  EXPECT_NEAR(0.25 * plunge_b, -pressure_scale * loads.force_y, 1e-10)
+      << "plunge spring: (omega_h/omega_alpha)^2 h/b";
   EXPECT_NEAR(0.75 * twist, pressure_scale * 2.0 * loads.moment, 1e-10) << "torsion spring: r_alpha^2 alpha";
   EXPECT_GE(loads.force_y, 0.2) << "a cambered section lifts";
   EXPECT_LE(plunge_b, -1e-3) << "and rises: plunge is positive down";

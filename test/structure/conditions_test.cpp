@@ -119,7 +119,7 @@ TEST(HarmonicMotion, ScaledModeMeetsPhaseAndEnergy) {
   const Values y = harmonic_states(model, time, mode, omega);
   EXPECT_NEAR(value(phase_condition(model, time), y), 0.0, 1e-18);
   EXPECT_NEAR(value(energy_condition(model, energy), y), 0.0, 1e-14);
-  EXPECT_LT(mode[pitch].imag(), 0.0);  // a sine of positive amplitude
+  EXPECT_LT(mode[pitch_mode].imag(), 0.0);  // a sine of positive amplitude
   EXPECT_THROW(scaled_to_energy(model, Eigen::Vector2cd(1.0, 0.0), omega, energy), InputError);
 }
 

@@ -16,8 +16,8 @@
 
 namespace wingbeat::testing {
 
-// The typical section of Thomas, Dowell & Hall 2002 (doi:10.2514/2.1713): a = -0.6, so that the elastic axis is
-// at 0.2 chords, where FlowCase has its axis of rotation.
+// The typical section of Thomas, Dowell & Hall 2002 (doi:10.2514/2.1713): a = -0.6, so that the elastic axis
+// is at 0.2 chords, where FlowCase has its axis of rotation.
 inline const TypicalSection paper_section{-0.6, 0.25, 0.75, 0.5, 75.0, {}};
 
 // A coupled problem on a small mesh, about a given base state.
@@ -35,7 +35,8 @@ struct CoupledCase {
         time(harmonics),
         model(structure_model(paper_section)),
         flow(flow_case.domain, flow_case.model, time),
-        subdomain(std::make_shared<const Subdomain>(ranks, flow_case.domain.exchange(), flow_case.domain.pattern(), 3)),
+        subdomain(std::make_shared<const Subdomain>(ranks, flow_case.domain.exchange(),
+                                                    flow_case.domain.pattern(), 3)),
         factors(unfactored(ranks, subdomain, state_size<2>, harmonics)) {}
   CoupledCase(const CoupledCase&) = delete;
   CoupledCase& operator=(const CoupledCase&) = delete;
@@ -47,9 +48,9 @@ struct CoupledCase {
   AeroelasticProblem<2>& pose(AeroelasticState base, std::optional<double> energy, double mean_pitch = 0.0) {
     std::optional<EnergyCondition> amplitude;
     if (energy) amplitude = energy_condition(model, *energy);
-    problem = std::make_unique<AeroelasticProblem<2>>(flow, StructuralEquation(model, time),
-                                                      SectionKinematics{flow_speed(), mean_pitch, 1.0}, amplitude,
-                                                      std::move(base), factors, AeroelasticTolerances{});
+    problem = std::make_unique<AeroelasticProblem<2>>(
+        flow, StructuralEquation(model, time), SectionKinematics{flow_speed(), mean_pitch, 1.0}, amplitude,
+        std::move(base), factors, AeroelasticTolerances{});
     return *problem;
   }
 };
@@ -103,7 +104,7 @@ inline FlutterSolution solve_flutter(CoupledCase& c, double energy, const Newton
   AeroelasticState start{{}, harmonic_states(c.model, c.time, mode, omega), omega, v * v};
   for (int n = 0; n < c.time.instances(); ++n)
     for (std::size_t i = 0; i < steady.size(); ++i) {
-      const Complex amplitude = at.pitch[i] * mode[pitch] + at.plunge[i] * 0.5 * mode[plunge];
+      const Complex amplitude = at.pitch[i] * mode[pitch_mode] + at.plunge[i] * 0.5 * mode[plunge_mode];
       start.w.push_back(steady[i] + (amplitude * std::polar(1.0, c.time.phase(n))).real());
     }
 
@@ -126,8 +127,10 @@ std::vector<T> random_vector(const Comm& comm, std::size_t size, unsigned seed) 
   std::uniform_real_distribution<double> entry(-1.0, 1.0);
   std::vector<T> x(size);
   for (T& value : x) {
-    if constexpr (std::is_same_v<T, double>) value = entry(generator);
-    else value = {entry(generator), entry(generator)};
+    if constexpr (std::is_same_v<T, double>)
+      value = entry(generator);
+    else
+      value = {entry(generator), entry(generator)};
   }
   return x;
 }

@@ -35,7 +35,7 @@ TEST(TypicalSection, StatesItsUnits) {
   EXPECT_DOUBLE_EQ(model.load(3.0), 4.0 * 9.0 / (std::numbers::pi * 75.0));
   EXPECT_DOUBLE_EQ(elastic_axis_in_chords(paper_section), 0.2);
   EXPECT_DOUBLE_EQ(speed_index(paper_section, 3.0), 6.0 / std::sqrt(75.0));
-  EXPECT_EQ(model.phase_mode, pitch);
+  EXPECT_EQ(model.phase_mode, pitch_mode);
 }
 
 TEST(TypicalSection, RefusesValuesWithoutMeaningByTheirKey) {

@@ -50,8 +50,10 @@ void for_each_quadrature_point(const MultiblockMesh<Dim>& mesh, F&& f) {
       for (int d = 0; d < Dim; ++d) at[d] = x[d].value;
       const auto& a = x[0].gradient;
       const auto& b = x[1].gradient;
-      if constexpr (Dim == 2) volume *= a[0] * b[1] - a[1] * b[0];
-      else volume *= dot(a, cross(b, x[2].gradient));
+      if constexpr (Dim == 2)
+        volume *= a[0] * b[1] - a[1] * b[0];
+      else
+        volume *= dot(a, cross(b, x[2].gradient));
       f(number, at, volume);
     });
     ++number;

@@ -106,7 +106,8 @@ double manufactured_solution_error(const Index<Dim>& cells, const JstCoefficient
   c.model.jst = scheme;
   FlowEquations<Dim> flow(c.domain, c.model, TimeSpectral(0));
   const auto exact = integrate<Dim>(c.mesh, ManufacturedFlow<Dim>{c.model.freestream}, 1.4);
-  const auto subdomain = std::make_shared<const Subdomain>(c.comm, c.domain.exchange(), c.domain.pattern(), 0);
+  const auto subdomain =
+      std::make_shared<const Subdomain>(c.comm, c.domain.exchange(), c.domain.pattern(), 0);
   SchwarzSolver<double> solver(c.comm, subdomain, state_size<Dim>);
   std::vector<double> w = exact.average;
   PseudoTransientOptions options;
@@ -115,7 +116,8 @@ double manufactured_solution_error(const Index<Dim>& cells, const JstCoefficient
   options.cfl_initial = 1e3;
   options.step_limit = 1.0;
   const auto result = pseudo_transient<Dim>(flow, {}, solver, w, options, {}, exact.source);
-  EXPECT_EQ(result.status, SolveStatus::converged) << "residual " << result.residual / options.tolerance << " of the tolerance";
+  EXPECT_EQ(result.status, SolveStatus::converged)
+      << "residual " << result.residual / options.tolerance << " of the tolerance";
   for (std::size_t i = 0; i < w.size(); ++i) w[i] -= exact.average[i];
   return l2_norm(w, c.domain.volumes());
 }
@@ -130,7 +132,8 @@ TEST(OrderOfAccuracy, ManufacturedFlowInThePlane) {
 
 TEST(OrderOfAccuracy, ManufacturedFlowInSpace) {
   std::vector<double> errors;
-  for (int cells : {7, 10, 14}) errors.push_back(manufactured_solution_error<3>({cells, cells, cells}, no_dissipation));
+  for (int cells : {7, 10, 14})
+    errors.push_back(manufactured_solution_error<3>({cells, cells, cells}, no_dissipation));
   expect_order(errors, std::numbers::sqrt2, 1.9);
 }
 

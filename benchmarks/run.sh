@@ -1,0 +1,17 @@
+#!/bin/sh
+# All benchmarks, one after another, into one table of text.
+#   benchmarks/run.sh [BUILD_FOLDER] [TABLE]  (default build/release and BUILD_FOLDER/benchmarks.txt)
+# Takes some minutes and both cores; meaningful only on a machine that does nothing else.
+set -eu
+cd "$(dirname "$0")/.."
+build=${1:-build/release}
+table=${2:-$build/benchmarks.txt}
+{
+  echo "wingbeat $(git describe --always --dirty 2>/dev/null || echo 'of unknown version'), $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1)"
+  echo; "$build/benchmarks/kernels"
+  echo; benchmarks/scaling.sh "$build"
+  echo; benchmarks/steady.sh "$build"
+  echo; benchmarks/flutter.sh "$build"
+} >"$table.part"
+mv "$table.part" "$table"
+cat "$table"
