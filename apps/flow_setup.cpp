@@ -51,8 +51,10 @@ FlowLevels<Dim> make_levels(Context& context, const MultiblockMesh<Dim>& mesh) {
   // The Schwarz overlap counts layers of the matrix, which reaches two cells to each side.
   const FlowLevelOptions options{{settings.partition.imbalance}, (settings.solver.overlap + 1) / 2};
   FlowLevels<Dim> levels;
-  for (auto& level_mesh : mesh_sequence(settings.mesh, mesh, settings.solver.coarse_levels)) {
-    if (level_mesh.cell_count() < static_cast<std::size_t>(context.comm.size())) continue;
+  auto meshes = mesh_sequence(settings.mesh, mesh, settings.solver.coarse_levels);
+  for (auto& level_mesh : meshes) {
+    const bool is_finest = &level_mesh == &meshes.back();
+    if (!is_finest && level_mesh.cell_count() < static_cast<std::size_t>(context.comm.size())) continue;
     levels.push_back(std::make_unique<FlowLevel<Dim>>(context.comm, std::move(level_mesh),
                                                       flow_model<Dim>(settings.flow), rotation_axis(settings),
                                                       options));

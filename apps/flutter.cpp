@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "apps/advice.hpp"
 #include "apps/case_mesh.hpp"
 #include "apps/flow_setup.hpp"
 #include "apps/history.hpp"
@@ -69,7 +70,9 @@ void report_flutter(Context& context, const StructureModel& model, const TimeSpe
   entry["linear_iterations"] = newton.linear_iterations;
   entry["factorizations"] = newton.factorizations;
   context.result.findings["flutter"] = entry;
-  context.result.message = fmt::format("V_F = {:.6f}, omega = {:.6f}", v, state.omega);
+  context.result.message = newton.status == SolveStatus::converged
+                               ? fmt::format("V_F = {:.6f}, omega = {:.6f}", v, state.omega)
+                               : coupled_advice(newton.status, context.settings.solver);
 
   context.log.line("\n{:<34}{:.8f}", "reduced velocity V = U/(c w_a)", v);
   context.log.line("{:<34}{:.8f}", "speed index 2V/sqrt(mu)", entry["speed_index"].get<double>());
@@ -138,7 +141,7 @@ SolveStatus run_flutter(Context& context) {
   const PseudoTransientResult steady = solve_steady_with_progress(context, levels, at_rest, history);
   history.write();
   if (steady.status != SolveStatus::converged) {
-    context.result.message = "the steady flow did not converge";
+    context.result.message = steady_advice(steady.status, settings.solver);
     return steady.status;
   }
   report_steady(context, level, at_rest, steady);
@@ -151,7 +154,6 @@ SolveStatus run_flutter(Context& context) {
   report_linear_flutter(context, linear.flutter);
   if (!linear.flutter.root) {
     context.result.message = no_flutter_message(settings);
-    context.log.warn(context.result.message);
     return SolveStatus::stalled;
   }
   return solve_coupled(context, level, model, linear_start(settings, level, model, time, linear), history);

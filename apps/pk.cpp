@@ -1,5 +1,6 @@
 #include "structure/pk.hpp"
 
+#include "apps/advice.hpp"
 #include "apps/case_mesh.hpp"
 #include "apps/flow_setup.hpp"
 #include "apps/history.hpp"
@@ -82,7 +83,7 @@ SolveStatus run_pk(Context& context) {
   const PseudoTransientResult steady = solve_steady_with_progress(context, levels, at_rest, history);
   history.write();
   if (steady.status != SolveStatus::converged) {
-    context.result.message = "the steady flow did not converge";
+    context.result.message = steady_advice(steady.status, settings.solver);
     return steady.status;
   }
   report_steady(context, level, at_rest, steady);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "apps/advice.hpp"
 #include "apps/case_mesh.hpp"
 #include "apps/on_root.hpp"
 #include "apps/timing.hpp"
@@ -106,6 +107,8 @@ int execute(const Comm& comm, const CommandLine& command, Result& result, Timer&
                   .stop = stop};
   const SolveStatus status = verb.run(context);
   result.status = to_string(status);
+  if (result.message.empty()) result.message = general_advice(status);
+  if (status != SolveStatus::converged) log.warn(result.message);
   finish(comm, context);
   return exit_code_of(status);
 }

@@ -1,3 +1,4 @@
+#include "apps/advice.hpp"
 #include "apps/case_mesh.hpp"
 #include "apps/flow_setup.hpp"
 #include "apps/history.hpp"
@@ -17,9 +18,14 @@ SolveStatus run_steady(Context& context) {
   const PseudoTransientResult solved = solve_steady_with_progress(context, levels, motion, history);
   history.write();
   if (level.w.empty()) {
-    context.result.message = "stopped before the finest mesh was reached; there is nothing to restart from";
+    context.result.message =
+        "stopped by a signal or --walltime before the finest mesh was reached; there is nothing to restart from: "
+        "run again with more time";
     return solved.status;
   }
+  context.result.message = steady_advice(solved.status, context.settings.solver);
+  if (solved.status == SolveStatus::interrupted)
+    context.result.message = "stopped by a signal or --walltime; continue with --restart solution.cgns";
 
   const auto part = context.timer.measure("output");
   write_solution_files(context, level, {level.w, std::vector<double>(4, 0.0), 0.0, 1.0});

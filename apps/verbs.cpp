@@ -6,11 +6,12 @@ namespace wingbeat {
 
 std::span<const Verb> verbs() {
   static const std::array table{
-      Verb{"steady", "steady flow and its loads", {"mesh", "partition", "flow", "pitch", "solver"}, run_steady},
+      Verb{"steady", "steady flow and its loads", {"mesh", "partition", "flow", "pitch", "solver"}, run_steady, true},
       Verb{"flutter",
            "flutter boundary: the speed and frequency at which small motion neither grows nor decays",
            {"mesh", "partition", "flow", "pitch", "time", "structure", "flutter", "solver"},
-           run_flutter},
+           run_flutter,
+           true},
       Verb{"pk",
            "aerodynamic matrix Q(k), and frequency and damping against speed by the p-k method",
            {"mesh", "partition", "flow", "pitch", "structure", "flutter", "pk", "solver"},

@@ -24,6 +24,7 @@ struct Verb {
   std::string help;
   std::vector<std::string> sections;  // whose required keys the case must give
   SolveStatus (*run)(Context&);
+  bool can_restart = false;
 };
 
 std::span<const Verb> verbs();

@@ -7,7 +7,8 @@ cd "$(dirname "$0")/.."
 build=${1:-build/release}
 table=${2:-$build/benchmarks.txt}
 {
-  echo "wingbeat $(git describe --always --dirty 2>/dev/null || echo 'of unknown version'), $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1)"
+  "$build/wingbeat" --version
+  sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1
   echo; "$build/benchmarks/kernels"
   echo; benchmarks/scaling.sh "$build"
   echo; benchmarks/steady.sh "$build"

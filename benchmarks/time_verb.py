@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Runs a verb of wingbeat several times and prints where the time went.
 
-    time_verb.py WINGBEAT VERB CASE [--ranks N ...] [--rounds R] [--variant NAME OVERRIDE ...] ...
+    time_verb.py WINGBEAT VERB CASE [--ranks N ...] [--rounds R] [--set KEY=VALUE ...]
+                                    [--variant NAME KEY=VALUE ...] ...
 
 One column for each number of ranks or variant; the first is the one that the others are compared
 with. Wall seconds are those of result.json, of the quickest of R rounds; the rounds go through all
@@ -41,7 +42,8 @@ def run(wingbeat, verb, case, ranks, overrides):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    plain = argparse.RawDescriptionHelpFormatter
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=plain)
     parser.add_argument("wingbeat")
     parser.add_argument("verb")
     parser.add_argument("case")
@@ -63,16 +65,16 @@ def main():
             if name not in best or seconds["total"] < best[name][0]["total"]:
                 best[name] = seconds, memory
 
-    load = os.getloadavg()[0]
-    print(f"{options.verb} {' '.join(options.set)}: wall seconds, best of {options.rounds}; load at the end {load:.1f}")
+    print(f"{' '.join([options.verb, *options.set])}: wall seconds, best of {options.rounds}; "
+          f"load at the end {os.getloadavg()[0]:.1f}")
     print(f"{'':<28}" + "".join(f"{name:>16}" for name in columns))
     parts = list(dict.fromkeys(part for seconds, _ in best.values() for part in seconds))
     for part in parts:
         row = "".join(f"{best[name][0].get(part, 0.0):>16.3f}" for name in columns)
         print(f"{part:<28}{row}")
     print(f"{'GB, largest process':<28}" + "".join(f"{best[name][1] * 1e-9:>16.3f}" for name in columns))
-    first = best[next(iter(columns))][0]["total"]
-    print(f"{'first column / this one':<28}" + "".join(f"{first / best[n][0]['total']:>16.2f}" for n in columns))
+    totals = [best[name][0]["total"] for name in columns]
+    print(f"{'first column / this one':<28}" + "".join(f"{totals[0] / total:>16.2f}" for total in totals))
 
 
 if __name__ == "__main__":

@@ -23,8 +23,14 @@ State<Dim, T> wall_flux(const T& p_wall, const Vec<G, Dim>& normal, const G& swe
 
 // Characteristic far field (eq:farfield): Riemann invariants along the normal, one from each side;
 // entropy and tangential velocity from upwind, seen from the moving face.
+template <int Dim, class T>
+struct FarfieldState {
+  State<Dim, T> w;
+  T p;
+};
+
 template <int Dim, class T, class G>
-State<Dim, T> farfield_flux(const State<Dim, T>& interior, const State<Dim, T>& outside, const Vec<G, Dim>& normal,
+FarfieldState<Dim, T> farfield_state(const State<Dim, T>& interior, const State<Dim, T>& outside, const Vec<G, Dim>& normal,
                             const G& sweep, double gamma) {
   const G area = sqrt(dot(normal, normal));
   const Vec<G, Dim> n = (G(1.0) / area) * normal;
@@ -39,13 +45,15 @@ State<Dim, T> farfield_flux(const State<Dim, T>& interior, const State<Dim, T>& 
   const T q_in = dot(u_in, n);
   const T q_out = dot(u_out, n);
 
-  // Supersonic relative to the face: both invariants come from one side.
+  // Invariants of the two sides in excess of the outside's; supersonic relative to the face, both
+  // come from one side.
   const double g = 2.0 / (gamma - 1.0);
   const T q_relative = q_in - face_speed;
-  const T leaving = select(q_relative < -c_in, q_out + g * c_out, q_in + g * c_in);
-  const T entering = select(c_in < q_relative, q_in - g * c_in, q_out - g * c_out);
-  const T q = 0.5 * (leaving + entering);
-  const T c = 0.25 * (gamma - 1.0) * (leaving - entering);
+  const T dq = q_in - q_out, dc = c_in - c_out;
+  const T leaving = select(q_relative < -c_in, T(0.0), dq + g * dc);
+  const T entering = select(c_in < q_relative, dq - g * dc, T(0.0));
+  const T q = q_out + 0.5 * (leaving + entering);
+  const T c = c_out + 0.25 * (gamma - 1.0) * (leaving - entering);
 
   const auto outflow = T(0.0) < q - face_speed;
   const T density_up = select(outflow, interior[0], outside[0]);
@@ -58,7 +66,14 @@ State<Dim, T> farfield_flux(const State<Dim, T>& interior, const State<Dim, T>& 
   const T p = p_up * (density / density_up) * ratio * ratio;
   Vec<T, Dim> u;
   for (int d = 0; d < Dim; ++d) u[d] = select(outflow, u_in[d], u_out[d]) + (q - q_up) * n[d];
-  return euler_flux<Dim, T, G>(conservative<Dim, T>(density, u, p, gamma), p, normal, sweep);
+  return {conservative<Dim, T>(density, u, p, gamma), p};
+}
+
+template <int Dim, class T, class G>
+State<Dim, T> farfield_flux(const State<Dim, T>& interior, const State<Dim, T>& outside,
+                            const Vec<G, Dim>& normal, const G& sweep, double gamma) {
+  const auto boundary = farfield_state<Dim, T, G>(interior, outside, normal, sweep, gamma);
+  return euler_flux<Dim, T, G>(boundary.w, boundary.p, normal, sweep);
 }
 
 }  // namespace wingbeat

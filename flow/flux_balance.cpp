@@ -42,11 +42,24 @@ template <int Dim, class S>
           state.sensor.data() + o);
 }
 
-// Flux through every face of a direction, as if it were an interior one.
+// The same flow for every lane.
+template <int Dim, class T, class S>
+UniformFlow<Dim, T> widened(const UniformFlow<Dim, S>& flow) {
+  UniformFlow<Dim, T> wide;
+  for (int v = 0; v < state_size<Dim>; ++v) wide.w[v] = T(flow.w[v]);
+  for (int d = 0; d < Dim; ++d) wide.u[d] = T(flow.u[d]);
+  wide.p = T(flow.p);
+  return wide;
+}
+
+// Flux through every face of a direction, as if it were an interior one, in excess of the free
+// stream's.
 template <int Dim, class S>
 [[gnu::flatten]] void sweep_fluxes(const BlockGeometry<Dim>& geometry, const RigidMotion<Sweep<S>>& motion,
-                                   int d, const JstCoefficients& jst, BlockState<Dim, S>& state) {
+                                   int d, const FlowModel<Dim, S>& model, BlockState<Dim, S>& state) {
   using T = Sweep<S>;
+  const JstCoefficients& jst = model.jst;
+  const auto freestream = widened<Dim, T>(model.freestream.flow());
   const auto& layout = geometry.layout;
   const std::ptrdiff_t step = layout.strides[d];
   Box<Dim> faces = box_of<Dim>(layout.extents);
@@ -61,27 +74,36 @@ template <int Dim, class S>
     for (int k = 0; k < 2; ++k) cells.radius[k] = Load<T>::from(state.radius[d].data() + o + (k - 1) * step);
     const auto face = moved_face<Dim, T>(geometry, motion, d, o);
     const auto flux = jst_flux<Dim, T>(cells, Load<T>::from(state.sensor.data() + o - step),
-                                       Load<T>::from(state.sensor.data() + o), face.normal, face.sweep, jst);
+                                       Load<T>::from(state.sensor.data() + o), face.normal, face.sweep, jst, freestream);
     for (int v = 0; v < state_size<Dim>; ++v) store(flux[v], state.flux[d][v].data() + o);
   }
+}
+
+// Flux out through a face on a physical boundary, in excess of the free stream's.
+template <int Dim, class S>
+State<Dim, S> boundary_flux(const BoundaryFace& boundary, const Vec<S, Dim>& outward, const S& sweep,
+                            const FlowModel<Dim, S>& model, const BlockState<Dim, S>& state) {
+  const UniformFlow<Dim, S> freestream = model.freestream.flow();
+  if (boundary.type == BoundaryType::farfield) {
+    const auto at_face = farfield_state<Dim, S, S>(load_state<Dim, S>(state, boundary.first), freestream.w,
+                                                   outward, sweep, model.freestream.gamma);
+    return excess_flux<Dim, S>(at_face.w, at_face.p, freestream, outward, sweep);
+  }
+  const S* p = state.p.data();
+  return wall_flux<Dim, S, S>(wall_pressure<S>(p[boundary.first], p[boundary.second]), outward, sweep) -
+         euler_flux<Dim, S, S>(freestream.w, freestream.p, outward, sweep);
 }
 
 // Replaces the fluxes of the physical boundaries of a direction.
 template <int Dim, class S>
 void set_boundary_fluxes(const FlowBlock<Dim>& block, const RigidMotion<S>& motion, int d,
                          const FlowModel<Dim, S>& model, BlockState<Dim, S>& state) {
-  const State<Dim, S> outside = model.freestream.state();
   for (const BoundaryFace& boundary : block.boundary) {
     if (boundary.direction != d) continue;
     const auto face = moved_face<Dim, S>(block.geometry, motion, d, boundary.face);
     const Vec<S, Dim> outward = boundary.outward * face.normal;
     const S sweep = boundary.outward * face.sweep;
-    const S* p = state.p.data();
-    const State<Dim, S> flux =
-        boundary.type == BoundaryType::farfield
-            ? farfield_flux<Dim, S, S>(load_state<Dim, S>(state, boundary.first), outside, outward, sweep,
-                                       model.freestream.gamma)
-            : wall_flux<Dim, S, S>(wall_pressure<S>(p[boundary.first], p[boundary.second]), outward, sweep);
+    const State<Dim, S> flux = boundary_flux<Dim, S>(boundary, outward, sweep, model, state);
     for (int v = 0; v < state_size<Dim>; ++v)
       state.flux[d][v][static_cast<std::size_t>(boundary.face)] = boundary.outward * flux[v];
   }
@@ -178,7 +200,7 @@ void FluxBalance<Dim, S>::evaluate(std::span<const S> w, std::span<const S> ghos
     sweep_radii<Dim, S>(block.geometry, wide_motion, model_.freestream.gamma, state);
     for (int d = 0; d < Dim; ++d) {
       sweep_sensor<Dim, S>(block.geometry.layout, d, model_.jst, state);
-      sweep_fluxes<Dim, S>(block.geometry, wide_motion, d, model_.jst, state);
+      sweep_fluxes<Dim, S>(block.geometry, wide_motion, d, model_, state);
       set_boundary_fluxes<Dim, S>(block, motion, d, model_, state);
     }
     set_balance<Dim, S>(block, state, balance);

@@ -50,6 +50,29 @@ State<Dim, T> euler_flux(const Vec<T, Dim + 2>& w, const T& p, const Vec<G, Dim>
   return flux;
 }
 
+// A uniform flow that fluxes may be taken in excess of.
+template <int Dim, class T>
+struct UniformFlow {
+  State<Dim, T> w{};
+  Vec<T, Dim> u{};
+  T p{};
+};
+
+// Flux in excess of that of a uniform flow through the same face (eq:excess-flux). Over a closed
+// cell the uniform flow's fluxes cancel, whatever its motion; leaving them out scales round-off
+// with the disturbance, which in the large cells of the far field is orders smaller than the flow.
+template <int Dim, class T>
+State<Dim, T> excess_flux(const State<Dim, T>& w, const T& p, const UniformFlow<Dim, T>& uniform,
+                          const Vec<T, Dim>& normal, const T& sweep) {
+  const Vec<T, Dim> u = velocity<Dim>(w);
+  const T through = dot(u, normal);
+  const T excess = dot(u - uniform.u, normal);
+  State<Dim, T> flux = (through - sweep) * (w - uniform.w) + excess * uniform.w;
+  for (int d = 0; d < Dim; ++d) flux[1 + d] += (p - uniform.p) * normal[d];
+  flux[Dim + 1] += (p - uniform.p) * through + uniform.p * excess;
+  return flux;
+}
+
 // The undisturbed flow: p = rho = 1, speed U = M sqrt(gamma) at `angle` (radians, nose up).
 template <int Dim, class T>
 struct Freestream {
@@ -59,12 +82,14 @@ struct Freestream {
   T angle_sine{};
 
   T speed() const { return mach * std::sqrt(gamma); }
-  State<Dim, T> state() const {
+  Vec<T, Dim> velocity() const {
     Vec<T, Dim> u;
     u[0] = speed() * angle_cosine;
     u[1] = speed() * angle_sine;
-    return conservative<Dim, T>(T(1.0), u, T(1.0), gamma);
+    return u;
   }
+  State<Dim, T> state() const { return conservative<Dim, T>(T(1.0), velocity(), T(1.0), gamma); }
+  UniformFlow<Dim, T> flow() const { return {state(), velocity(), T(1.0)}; }
   T dynamic_pressure() const { return 0.5 * gamma * mach * mach; }
 };
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <regex>
 #include <set>
 #include <sstream>
 #include <string>
@@ -84,6 +85,9 @@ bool may_include(const std::string& from, const std::string& to) {
           (core_includes.count(source[1]) && core_includes.at(source[1]).count(target[1])));
 }
 
+// Tests may name communicators, which Comm takes.
+bool is_test(const std::string& path) { return path.starts_with("test/"); }
+
 bool may_see_mpi(const std::string& path) {
   return path.rfind("core/parallel/", 0) == 0 || path.rfind("partition/", 0) == 0 ||
          path == "test/main.cpp" || path.rfind("test/core/parallel/", 0) == 0;
@@ -126,10 +130,12 @@ TEST(Architecture, IncludesFollowTheChainOfFolders) {
 }
 
 TEST(Architecture, OnlyParallelAndPartitionSeeMpi) {
+  const std::regex mpi_name("\\bMPI_[A-Z]");
   for (const Source& source : sources())
     for (const std::string& line : source.lines) {
-      if (included(line) != "<mpi.h") continue;
-      EXPECT_TRUE(may_see_mpi(source.path)) << source.path;
+      const bool uses_mpi =
+          included(line) == "<mpi.h" || (!is_test(source.path) && std::regex_search(line, mpi_name));
+      EXPECT_TRUE(!uses_mpi || may_see_mpi(source.path)) << source.path << ": " << line;
     }
 }
 
@@ -156,6 +162,20 @@ TEST(Architecture, EveryCitedEquationStandsInTheTheory) {
         EXPECT_TRUE(defined.count(label))
             << source.path << " cites " << label << ", which docs/theory.md lacks";
   }
+}
+
+TEST(Architecture, LinksOfThePagesLeadSomewhere) {
+  std::vector<fs::path> pages{root / "README.md"};
+  for (const auto& entry : fs::recursive_directory_iterator(root / "docs"))
+    if (entry.path().extension() == ".md") pages.push_back(entry.path());
+  const std::regex link("\\]\\(([^)#:]+)(#[^)]*)?\\)");
+  std::size_t count = 0;
+  for (const fs::path& page : pages)
+    for (const std::string& line : lines_of(page))
+      for (std::sregex_iterator match(line.begin(), line.end(), link), end; match != end; ++match, ++count)
+        EXPECT_TRUE(fs::exists(page.parent_path() / (*match)[1].str()))
+            << page << " links to " << (*match)[1];
+  EXPECT_GT(count, 10U);
 }
 
 }  // namespace

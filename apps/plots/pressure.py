@@ -87,15 +87,15 @@ def draw(folder):
     for phase, rows in instances:
         colour = phase_colour(phase / (2.0 * np.pi)) if periodic else COLOURS["flow"]
         plot_instance(axes, table["x_body"], table["cp"], rows, colour, label_of(phase) if periodic else "upper surface")
-    axes.plot([], [], color=COLOURS["line"], linestyle=(0, (4, 2)), label="lower surface")
+    axes.plot([], [], color=COLOURS["line" if periodic else "flow"], linestyle=(0, (4, 2)), label="lower surface")
 
     case = read_case(folder)
     mach, gamma = case_value(case, "flow", "mach"), case_value(case, "flow", "gamma", 1.4)
     if mach:
         sonic = sonic_pressure_coefficient(mach, gamma)
         axes.axhline(sonic, color=COLOURS["sonic"], linewidth=0.9, linestyle=":")
-        axes.annotate(rf"sonic, $C_p^*$ = {sonic:.3f}", (0.0, sonic), xycoords=("axes fraction", "data"),
-                      xytext=(6, 3), textcoords="offset points", fontsize=8, color=COLOURS["sonic"])
+        axes.annotate(rf"sonic, $C_p^*$ = {sonic:.3f}", (1.0, sonic), xycoords=("axes fraction", "data"),
+                      xytext=(-4, 3), textcoords="offset points", ha="right", fontsize=8, color=COLOURS["sonic"])
     axes.invert_yaxis()
     axes.set(ylabel=r"pressure coefficient $C_p$", title=title_of(folder, periodic))
     if periodic:

@@ -3,10 +3,24 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <cstdlib>
 
 namespace wingbeat {
+namespace {
 
-Log::Log(bool speaks) : speaks_(speaks), is_live_(speaks && ::isatty(STDOUT_FILENO) == 1) {}
+// Open MPI gives every rank a pseudo-terminal, even where mpirun itself writes to a file: what the
+// user sees is the standard output of the parent.
+bool stdout_is_terminal() {
+  if (!std::getenv("OMPI_COMM_WORLD_SIZE")) return ::isatty(STDOUT_FILENO) == 1;
+  std::error_code unreadable;
+  const std::string target =
+      std::filesystem::read_symlink(fmt::format("/proc/{}/fd/1", ::getppid()), unreadable).string();
+  return !unreadable && (target.starts_with("/dev/pts/") || target.starts_with("/dev/tty"));
+}
+
+}  // namespace
+
+Log::Log(bool speaks) : speaks_(speaks), is_live_(speaks && stdout_is_terminal()) {}
 
 Log::~Log() { clear_status(); }
 

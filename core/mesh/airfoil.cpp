@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <utility>
@@ -94,12 +93,16 @@ Point Airfoil::outward_normal(double s) const {
   return (1.0 / norm(tangent)) * Point{{-tangent[1], tangent[0]}};
 }
 
+bool is_airfoil_name(std::string_view text) {
+  constexpr std::string_view prefix = "naca";
+  if (text == "naca64a010") return true;
+  return text.starts_with(prefix) && text.size() == prefix.size() + 4 &&
+         text.find_first_not_of("0123456789", prefix.size()) == std::string_view::npos;
+}
+
 Airfoil make_airfoil(const std::string& name_or_file) {
-  if (name_or_file == "naca64a010") return naca_64a010();
-  const bool four_digits = name_or_file.size() == 8 && name_or_file.starts_with("naca") &&
-                           std::all_of(name_or_file.begin() + 4, name_or_file.end(),
-                                       [](unsigned char c) { return std::isdigit(c) != 0; });
-  if (four_digits) return naca_four_digit(name_or_file.substr(4));
+  if (is_airfoil_name(name_or_file))
+    return name_or_file == "naca64a010" ? naca_64a010() : naca_four_digit(name_or_file.substr(4));
   if (!std::filesystem::is_regular_file(name_or_file))
     throw InputError(
         "airfoil \"" + name_or_file +

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/number/vec.hpp"
@@ -52,6 +53,9 @@ class Airfoil {
   SectionCurve curve_;
   std::vector<double> arc_length_;  // from t = -1 to equidistant values of t
 };
+
+// Whether the text names a built-in section, "naca64a010" or "naca" and four digits, rather than a file.
+bool is_airfoil_name(std::string_view text);
 
 // The section that a case names: "naca64a010", "naca" and four digits (NACA 0012, 2412, ...), or a
 // file of ordinates (read_airfoil). Throws InputError for anything else.

@@ -1,17 +1,8 @@
 #include "core/mesh/mesh_settings.hpp"
 
-#include <algorithm>
-#include <cctype>
+#include "core/mesh/airfoil.hpp"
 
 namespace wingbeat {
-
-bool is_airfoil_name(std::string_view text) {
-  if (text == "naca64a010") return true;
-  constexpr std::string_view prefix = "naca";
-  const std::string_view digits = text.substr(std::min(text.size(), prefix.size()));
-  return text.starts_with(prefix) && digits.size() == 4 &&
-         std::ranges::all_of(digits, [](unsigned char c) { return std::isdigit(c) != 0; });
-}
 
 void MeshSettings::describe(SettingSection& keys) {
   keys.add("airfoil", &airfoil,

@@ -3,7 +3,6 @@
 #include <array>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "core/io/settings.hpp"
 
@@ -20,8 +19,5 @@ struct MeshSettings {
 
   void describe(SettingSection& keys);
 };
-
-// Whether the text names a built-in section (naca64a010, or NACA and four digits) rather than a file.
-bool is_airfoil_name(std::string_view text);
 
 }  // namespace wingbeat

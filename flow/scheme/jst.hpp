@@ -92,13 +92,14 @@ State<Dim, P> jst_dissipation(const FaceStencil<Dim, T, P>& cells, const JstWeig
   return dissipation;
 }
 
-// Numerical flux F - d through an interior face: mean of the two cells' fluxes less the
-// dissipation.
+// Numerical flux F - d through an interior face, F in excess of a uniform flow's (none by default):
+// mean of the two cells' fluxes less the dissipation.
 template <int Dim, class T>
 State<Dim, T> jst_flux(const FaceStencil<Dim, T>& cells, const T& sensor_left, const T& sensor_right,
-                       const Vec<T, Dim>& normal, const T& sweep, const JstCoefficients& jst) {
-  State<Dim, T> flux = euler_flux<Dim>(cells.w[1], cells.p[1], normal, sweep) +
-                       euler_flux<Dim>(cells.w[2], cells.p[2], normal, sweep);
+                       const Vec<T, Dim>& normal, const T& sweep, const JstCoefficients& jst,
+                       const UniformFlow<Dim, T>& uniform = {}) {
+  State<Dim, T> flux = excess_flux<Dim, T>(cells.w[1], cells.p[1], uniform, normal, sweep) +
+                       excess_flux<Dim, T>(cells.w[2], cells.p[2], uniform, normal, sweep);
   flux *= 0.5;
   flux -= jst_dissipation<Dim>(cells, jst_weights(sensor_left, sensor_right, cells.radius, jst));
   return flux;

@@ -71,6 +71,7 @@ TEST_F(ExitCode, FourWhenStoppedBySignal) {
   for (const int signal : {SIGTERM, SIGUSR1}) {
     EXPECT_EQ(signalled(signal), 4);
     EXPECT_EQ(result("out")["status"], "interrupted");
+    expect_in("stopped by a signal", result("out")["message"].get<std::string>());
     expect_in("checkpoint", read("out/log.txt"));
   }
 }

@@ -15,7 +15,7 @@ struct SteadySolution {
 };
 
 // Tolerance: 11.5 orders. With a far field 60 chords away the round-off of its large faces leaves a
-// floor of about 2.5e-12 of the residual of uniform flow.
+// floor of about 1e-12 of the residual of uniform flow.
 inline SteadySolution solve_steady(const FlowCase<2>& c, double tolerance = 3.2e-12) {
   FlowEquations<2> flow(c.domain, c.model, TimeSpectral(0));
   const auto subdomain =

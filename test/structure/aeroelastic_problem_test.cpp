@@ -52,9 +52,10 @@ void expect_exact_jacobian(const std::string& section, int harmonics, double mea
     problem.jacobian().apply(v, product);
     const double size = global_norm(c.comm(), product);
     EXPECT_LE(global_distance(c.comm(), difference(problem, u, v, 1e-5), product), 1e-6 * size);
-    // Richardson: the error of second order cancels. Steps are of the size of w^, s w^ is what the flow sees.
-    const double h = harmonics > 0 || tail_only ? 1e-3 : 1e-5;
-    const auto coarse = difference(problem, u, v, 2 * h), fine = difference(problem, u, v, h);
+    // Richardson: the error of second order cancels. Only where a step of w^ or y^ is small in the flow, s
+    // times itself: the kinks of |u . S| in the spectral radii spoil larger ones.
+    if (harmonics == 0) continue;
+    const auto coarse = difference(problem, u, v, 2e-3), fine = difference(problem, u, v, 1e-3);
     std::vector<double> extrapolated(u.size());
     for (std::size_t i = 0; i < u.size(); ++i) extrapolated[i] = (4.0 * fine[i] - coarse[i]) / 3.0;
     EXPECT_LE(global_distance(c.comm(), extrapolated, product), 1e-8 * size);

@@ -19,12 +19,27 @@ Dual<double, N> exponential(const Dual<double, N>& x) {
   return chain(x, y, y);
 }
 
-// A bump that is 1 in the middle of the unit box and, with all its derivatives, 0 to round-off on
-// its sides.
+// In space the box leans: the stream, which has no third component, crosses all its sides. Where it
+// runs along a far field, the upwind side is anyone's, and Newton's method may cycle.
+constexpr double lean = 0.35;
+
+template <int Dim>
+MultiblockMesh<Dim> leaning_box(const Index<Dim>& cells) {
+  auto mesh = bent_box<Dim>(cells);
+  auto& nodes = mesh.zones[0].nodes;
+  if constexpr (Dim == 3)
+    for_each(nodes.interior(), [&](const Index<3>& node) { nodes(node)[2] += lean * nodes(node)[0]; });
+  return mesh;
+}
+
+// A bump that is 1 in the middle of the box and negligible on its sides beside the errors measured.
 template <int Dim, class T>
 T bump(const Vec<T, Dim>& x, double width) {
   T distance(0.0);
-  for (int d = 0; d < Dim; ++d) distance += (x[d] - 0.5) * (x[d] - 0.5);
+  for (int d = 0; d < Dim; ++d) {
+    const T from_middle = d == 2 ? x[d] - lean * x[0] - 0.5 : x[d] - 0.5;
+    distance += from_middle * from_middle;
+  }
   return exponential(distance / (-width * width));
 }
 
@@ -36,7 +51,7 @@ struct ManufacturedFlow {
 
   template <class T>
   Primitive<Dim, T> operator()(const Vec<T, Dim>& x) const {
-    const T b = bump<Dim, T>(x, 0.15);
+    const T b = bump<Dim, T>(x, Dim == 2 ? 0.15 : 0.18);
     Primitive<Dim, T> q;
     q[0] = 1.0 + 0.2 * b;
     q[1] = freestream.speed() * freestream.angle_cosine + 0.1 * b;
@@ -70,10 +85,14 @@ struct IsentropicVortex {
   }
 };
 
-// Slopes of log(error) between successive meshes, each refined by about the ratio given.
-void expect_order(const std::vector<double>& errors, double ratio, double order) {
-  for (std::size_t i = 1; i < errors.size(); ++i) {
-    const double observed = std::log(errors[i - 1] / errors[i]) / std::log(ratio);
+// Slopes of log(error) between successive meshes of so many cells along a side.
+template <class Error>
+void expect_order(const std::vector<int>& cells, double order, const Error& error_on) {
+  std::vector<double> errors;
+  for (int count : cells) errors.push_back(error_on(count));
+  for (std::size_t i = 1; i < cells.size(); ++i) {
+    const double observed =
+        std::log(errors[i - 1] / errors[i]) / std::log(static_cast<double>(cells[i]) / cells[i - 1]);
     EXPECT_GE(observed, order) << "from error " << errors[i - 1] << " to " << errors[i];
   }
 }
@@ -93,16 +112,13 @@ double vortex_truncation_error(int cells, const JstCoefficients& scheme) {
 }
 
 TEST(OrderOfAccuracy, IsentropicVortexOnAMeshThatMovesWithIt) {
-  for (const auto& scheme : {no_dissipation, jst}) {
-    std::vector<double> errors;
-    for (int cells : {48, 96, 192}) errors.push_back(vortex_truncation_error(cells, scheme));
-    expect_order(errors, 2.0, 1.9);
-  }
+  for (const auto& scheme : {no_dissipation, jst})
+    expect_order({48, 96, 192}, 1.9, [&](int cells) { return vortex_truncation_error(cells, scheme); });
 }
 
 template <int Dim>
 double manufactured_solution_error(const Index<Dim>& cells, const JstCoefficients& scheme) {
-  FlowCase<Dim> c(bent_box<Dim>(cells), 0.5, 25.0);
+  FlowCase<Dim> c(leaning_box<Dim>(cells), 0.5, 25.0);
   c.model.jst = scheme;
   FlowEquations<Dim> flow(c.domain, c.model, TimeSpectral(0));
   const auto exact = integrate<Dim>(c.mesh, ManufacturedFlow<Dim>{c.model.freestream}, 1.4);
@@ -110,31 +126,29 @@ double manufactured_solution_error(const Index<Dim>& cells, const JstCoefficient
       std::make_shared<const Subdomain>(c.comm, c.domain.exchange(), c.domain.pattern(), 0);
   SchwarzSolver<double> solver(c.comm, subdomain, state_size<Dim>);
   std::vector<double> w = exact.average;
+  // From the exact averages Newton's method needs no pseudo-time.
   PseudoTransientOptions options;
-  // Far field all around: uniform flow has no residual to measure by, so the source takes its place.
-  options.tolerance = 1e-10 * global_norm(c.comm, exact.source) / flow.uniform_residual();
-  options.cfl_initial = 1e3;
+  options.tolerance = 1e-9;
+  options.cfl_initial = 1e8;
+  options.cfl_growth = 0.0;
   options.step_limit = 1.0;
   const auto result = pseudo_transient<Dim>(flow, {}, solver, w, options, {}, exact.source);
-  EXPECT_EQ(result.status, SolveStatus::converged)
-      << "residual " << result.residual / options.tolerance << " of the tolerance";
+  EXPECT_EQ(result.status, SolveStatus::converged) << "residual " << result.residual;
   for (std::size_t i = 0; i < w.size(); ++i) w[i] -= exact.average[i];
   return l2_norm(w, c.domain.volumes());
 }
 
 TEST(OrderOfAccuracy, ManufacturedFlowInThePlane) {
-  for (const auto& scheme : {no_dissipation, jst}) {
-    std::vector<double> errors;
-    for (int cells : {16, 32, 64}) errors.push_back(manufactured_solution_error<2>({cells, cells}, scheme));
-    expect_order(errors, 2.0, 1.9);
-  }
+  for (const auto& scheme : {no_dissipation, jst})
+    expect_order({16, 32, 64}, 1.9, [&](int cells) {
+      return manufactured_solution_error<2>({cells, cells}, scheme);
+    });
 }
 
 TEST(OrderOfAccuracy, ManufacturedFlowInSpace) {
-  std::vector<double> errors;
-  for (int cells : {7, 10, 14})
-    errors.push_back(manufactured_solution_error<3>({cells, cells, cells}, no_dissipation));
-  expect_order(errors, std::numbers::sqrt2, 1.9);
+  expect_order({8, 10, 14}, 1.9, [&](int cells) {
+    return manufactured_solution_error<3>({cells, cells, cells}, no_dissipation);
+  });
 }
 
 }  // namespace

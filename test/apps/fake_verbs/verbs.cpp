@@ -52,7 +52,7 @@ SolveStatus break_one(Context& context) {
 
 std::span<const Verb> verbs() {
   static const std::array table{
-      Verb{"succeed", "", {}, succeed},     Verb{"stall", "", {}, stall},         Verb{"wait", "", {}, wait},
+      Verb{"succeed", "", {}, succeed, true},     Verb{"stall", "", {}, stall},         Verb{"wait", "", {}, wait},
       Verb{"break-all", "", {}, break_all}, Verb{"break-one", "", {}, break_one},
   };
   return table;

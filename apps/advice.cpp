@@ -1,0 +1,59 @@
+#include "apps/advice.hpp"
+
+#include <fmt/format.h>
+
+namespace wingbeat {
+
+std::string steady_advice(SolveStatus status, const SolverSettings& settings) {
+  switch (status) {
+    case SolveStatus::converged:
+      return "";
+    case SolveStatus::iteration_limit:
+      return fmt::format(
+          "the steady flow did not reach solver.steady_tolerance = {} in solver.max_steady_iterations = {}; "
+          "allow more if |R| in history.csv still falls, else relax the tolerance",
+          settings.steady_tolerance, settings.max_steady_iterations);
+    case SolveStatus::stalled:
+      return "the steady flow stalled: no step lowers |R|; look at the mesh with `wingbeat mesh`, or lower "
+             "flow.mach or the incidence";
+    case SolveStatus::diverged:
+      return "the steady flow diverged; look at the mesh with `wingbeat mesh`, or lower flow.mach or the "
+             "incidence";
+    case SolveStatus::interrupted:
+      return "stopped by a signal or --walltime during the steady flow; run again with more time";
+  }
+  return "";
+}
+
+std::string coupled_advice(SolveStatus status, const SolverSettings& settings) {
+  switch (status) {
+    case SolveStatus::converged:
+      return "";
+    case SolveStatus::iteration_limit:
+      return fmt::format(
+          "Newton on the coupled problem needs more than solver.max_newton_iterations = {}; allow more and "
+          "continue with --restart solution.cgns",
+          settings.max_newton_iterations);
+    case SolveStatus::stalled:
+      return fmt::format(
+          "Newton on the coupled problem stalled: no step lowers |F|; start from the solution of a smaller "
+          "flutter.energy with --restart, or raise solver.max_linear_iterations = {} if that many were used",
+          settings.max_linear_iterations);
+    case SolveStatus::diverged:
+      return "Newton on the coupled problem diverged; start from the solution of a smaller flutter.energy "
+             "with "
+             "--restart";
+    case SolveStatus::interrupted:
+      return "stopped by a signal or --walltime; continue with --restart solution.cgns";
+  }
+  return "";
+}
+
+std::string general_advice(SolveStatus status) {
+  if (status == SolveStatus::converged) return "";
+  if (status == SolveStatus::interrupted)
+    return "stopped by a signal or --walltime; run again with more time";
+  return fmt::format("ended with {}; history.csv shows how far it came", to_string(status));
+}
+
+}  // namespace wingbeat
