@@ -15,7 +15,7 @@ namespace wingbeat {
 namespace {
 
 MultiblockMesh<2> built_in_mesh(const MeshSettings& settings, const std::array<int, 2>& cells,
-                                 std::optional<double> stretching) {
+                                std::optional<double> stretching) {
   const Airfoil airfoil = make_airfoil(*settings.airfoil);
   MultiblockMesh<2> mesh = conformal_omesh(airfoil, {.around = cells[0],
                                                      .normal = cells[1],
@@ -45,7 +45,8 @@ MultiblockMesh<2> make_plane_mesh(const MeshSettings& settings) {
   AnyMesh mesh = make_case_mesh(settings);
   if (auto* plane = std::get_if<MultiblockMesh<2>>(&mesh)) return std::move(*plane);
   throw InputError(
-      "mesh.file: the mesh is three-dimensional; this verb solves plane flow: give a 2-D mesh, or one a single cell "
+      "mesh.file: the mesh is three-dimensional; this verb solves plane flow: give a 2-D mesh, or one a "
+      "single cell "
       "thick between two symmetry planes");
 }
 

@@ -112,7 +112,8 @@ void report_steady(Context& context, FlowLevel<2>& level, const MotionState& mot
                                        {"iterations", solved.iterations},
                                        {"linear_iterations", solved.linear_iterations},
                                        {"factorizations", solved.factorizations}};
-  context.log.line("\ncl = {:.8f}   cd = {:.8f}   cm = {:.8f}   residual {:.1e}", c.cl, c.cd, c.cm, solved.residual);
+  context.log.line("\ncl = {:.8f}   cd = {:.8f}   cm = {:.8f}   residual {:.1e}", c.cl, c.cd, c.cm,
+                   solved.residual);
 }
 
 template FlowModel<2, double> flow_model<2>(const FlowSettings&);

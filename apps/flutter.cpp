@@ -52,7 +52,8 @@ Start restarted(const Context& context, FlowLevel<2>& level, const TimeSpectral&
 }
 
 void report_flutter(Context& context, const StructureModel& model, const TimeSpectral& time,
-                    const AeroelasticState& state, const AeroelasticResiduals& residuals, const NewtonResult& newton) {
+                    const AeroelasticState& state, const AeroelasticResiduals& residuals,
+                    const NewtonResult& newton) {
   const double v = section_kinematics(context.settings).reduced_velocity(state.r);
   const Eigen::VectorXcd u = first_harmonic(model, time, state.y);
   const double pitch_deg = std::abs(u[pitch_mode]) * 180.0 / std::numbers::pi;
@@ -78,9 +79,10 @@ void report_flutter(Context& context, const StructureModel& model, const TimeSpe
   context.log.line("{:<34}{:.8f}", "speed index 2V/sqrt(mu)", entry["speed_index"].get<double>());
   context.log.line("{:<34}{:.8f}", "frequency ratio omega/w_a", state.omega);
   context.log.line("{:<34}{:.8f}", "reduced frequency k", state.omega / (2.0 * v));
-  context.log.line("{:<34}{:.6f} deg, plunge {:.3e} semichords", "pitch amplitude", pitch_deg, std::abs(u[plunge_mode]));
-  context.log.line("{:<34}flow {:.1e}, structure {:.1e}, phase {:.1e}, energy {:.1e}", "residuals", residuals.flow,
-                   residuals.structure, residuals.phase, residuals.energy);
+  context.log.line("{:<34}{:.6f} deg, plunge {:.3e} semichords", "pitch amplitude", pitch_deg,
+                   std::abs(u[plunge_mode]));
+  context.log.line("{:<34}flow {:.1e}, structure {:.1e}, phase {:.1e}, energy {:.1e}", "residuals",
+                   residuals.flow, residuals.structure, residuals.phase, residuals.energy);
   context.log.line("{:<34}{} Newton, {} Krylov, {} new factorizations\n", "iterations", newton.iterations,
                    newton.linear_iterations, newton.factorizations);
 }
@@ -104,18 +106,20 @@ SolveStatus solve_coupled(Context& context, FlowLevel<2>& level, const Structure
     const auto part = context.timer.measure("newton");
     Progress progress(context.log, "coupled Newton", {"iter", "|R|", "|S|", "omega", "V", "linear"});
     double first = 0.0;
-    result = newton(context.comm, problem, u, options, [&](const NewtonIteration& i, std::span<const double> at, std::span<const double> f) {
-      const AeroelasticState now = problem.state(at);
-      residuals = problem.measure(f);
-      const double v = section_kinematics(settings).reduced_velocity(now.r);
-      history.coupled("flutter", i, residuals, now.omega, v);
-      if (i.iteration == 0) first = residuals.flow;
-      progress.row({fmt::format("{}", i.iteration), fmt::format("{:.2e}", residuals.flow),
-                    fmt::format("{:.2e}", residuals.structure), fmt::format("{:.6f}", now.omega), fmt::format("{:.6f}", v),
-                    fmt::format("{}", i.linear_iterations)},
-                   converged_fraction(first, residuals.flow, settings.solver.flow_tolerance));
-      return !context.stop.is_set();
-    });
+    result =
+        newton(context.comm, problem, u, options,
+               [&](const NewtonIteration& i, std::span<const double> at, std::span<const double> f) {
+                 const AeroelasticState now = problem.state(at);
+                 residuals = problem.measure(f);
+                 const double v = section_kinematics(settings).reduced_velocity(now.r);
+                 history.coupled("flutter", i, residuals, now.omega, v);
+                 if (i.iteration == 0) first = residuals.flow;
+                 progress.row({fmt::format("{}", i.iteration), fmt::format("{:.2e}", residuals.flow),
+                               fmt::format("{:.2e}", residuals.structure), fmt::format("{:.6f}", now.omega),
+                               fmt::format("{:.6f}", v), fmt::format("{}", i.linear_iterations)},
+                              converged_fraction(first, residuals.flow, settings.solver.flow_tolerance));
+                 return !context.stop.is_set();
+               });
   }
   history.write();
   const auto part = context.timer.measure("output");

@@ -20,7 +20,8 @@ double History::seconds() const {
 
 void History::steady(const std::string& mesh, const PseudoTransientIteration& i) {
   table_.add({"steady " + mesh, static_cast<long>(i.iteration), i.residual, std::string(), std::string(),
-              std::string(), std::string(), std::string(), static_cast<long>(i.linear_iterations), seconds()});
+              std::string(), std::string(), std::string(), static_cast<long>(i.linear_iterations),
+              seconds()});
 }
 
 void History::coupled(const std::string& stage, const NewtonIteration& i, const AeroelasticResiduals& r,
@@ -44,14 +45,16 @@ PseudoTransientResult solve_steady_with_progress(Context& context, FlowLevels<2>
         const std::string mesh = mesh_size_text<2>(levels[level]->mesh);
         if (level != shown) {
           progress.reset();
-          progress = std::make_unique<Progress>(context.log, "steady flow, " + mesh,
-                                                std::vector<std::string>{"iter", "|R|", "CFL", "step", "linear"});
+          progress =
+              std::make_unique<Progress>(context.log, "steady flow, " + mesh,
+                                         std::vector<std::string>{"iter", "|R|", "CFL", "step", "linear"});
           shown = level;
         }
         history.steady(mesh, i);
-        progress->row({fmt::format("{}", i.iteration), fmt::format("{:.2e}", i.residual), fmt::format("{:.1e}", i.cfl),
-                       fmt::format("{:.2f}", i.step), fmt::format("{}", i.linear_iterations)},
-                      converged_fraction(1.0, i.residual, options.tolerance));
+        progress->row(
+            {fmt::format("{}", i.iteration), fmt::format("{:.2e}", i.residual), fmt::format("{:.1e}", i.cfl),
+             fmt::format("{:.2f}", i.step), fmt::format("{}", i.linear_iterations)},
+            converged_fraction(1.0, i.residual, options.tolerance));
         return !context.stop.is_set();
       });
   return result;

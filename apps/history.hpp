@@ -17,8 +17,8 @@ class History {
   explicit History(Context& context);
 
   void steady(const std::string& mesh, const PseudoTransientIteration& iteration);
-  void coupled(const std::string& stage, const NewtonIteration& iteration, const AeroelasticResiduals& residuals,
-               double omega, double reduced_velocity);
+  void coupled(const std::string& stage, const NewtonIteration& iteration,
+               const AeroelasticResiduals& residuals, double omega, double reduced_velocity);
   // Replaces history.csv; rank 0.
   void write() const;
 
@@ -31,7 +31,7 @@ class History {
 };
 
 // Solves the steady flow on all levels with progress lines. Collective.
-PseudoTransientResult solve_steady_with_progress(Context& context, FlowLevels<2>& levels, const MotionState& motion,
-                                                 History& history);
+PseudoTransientResult solve_steady_with_progress(Context& context, FlowLevels<2>& levels,
+                                                 const MotionState& motion, History& history);
 
 }  // namespace wingbeat

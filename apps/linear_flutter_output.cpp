@@ -41,7 +41,8 @@ void report_linear_flutter(Context& context, const LinearFlutter& flutter) {
 std::string no_flutter_message(const CaseSettings& settings) {
   const auto& [k_min, k_max] = settings.flutter.reduced_frequency_range;
   return fmt::format(
-      "no flutter root with reduced frequency between {} and {}; widen flutter.reduced_frequency_range, or the section "
+      "no flutter root with reduced frequency between {} and {}; widen flutter.reduced_frequency_range, or "
+      "the section "
       "does not flutter at this Mach number",
       k_min, k_max);
 }

@@ -16,9 +16,8 @@ namespace {
 // Q(k) on the finest mesh, with a line a sample.
 AerodynamicTable sampled_with_progress(Context& context, LinearizedSection<2>& section) {
   const auto part = context.timer.measure("aerodynamic matrix");
-  const auto& settings = context.settings.flutter;
-  const auto [k_min, k_max] = settings.reduced_frequency_range;
-  const std::vector<double> ks = spread_reduced_frequencies(k_min, k_max, settings.samples);
+  const auto [k_min, k_max] = context.settings.flutter.reduced_frequency_range;
+  const std::vector<double> ks = spread_reduced_frequencies(k_min, k_max, context.settings.pk.frequencies);
   Progress progress(context.log, "aerodynamic matrix", {"k", "Qhh", "Qha", "Qah", "Qaa"});
   const auto text = [](std::complex<double> q) { return fmt::format("{:.3f}{:+.3f}i", q.real(), q.imag()); };
   std::size_t done = 0;
@@ -50,8 +49,8 @@ void write_branches(const Context& context, const PkResult& result, const Struct
   CsvTable csv({"reduced_velocity", "mode", "frequency", "damping", "growth", "reduced_frequency", "status"});
   for (std::size_t branch = 0; branch < result.branches.size(); ++branch)
     for (const PkPoint& point : result.branches[branch])
-      csv.add({point.reduced_velocity, model.modes[branch], point.frequency(), point.damping(), point.p.real(),
-               point.reduced_frequency(), std::string(to_string(point.status))});
+      csv.add({point.reduced_velocity, model.modes[branch], point.frequency(), point.damping(),
+               point.p.real(), point.reduced_frequency(), std::string(to_string(point.status))});
   on_root(context.comm, [&] { csv.write(context.output / "pk.csv"); });
 }
 
@@ -61,7 +60,8 @@ void report_crossings(Context& context, const PkResult& result, const StructureM
     const PkPoint& point = crossing.point;
     const std::string& mode = model.modes[static_cast<std::size_t>(crossing.branch)];
     context.log.line("p-k: the {} branch {} at V = {:.6f}, omega = {:.6f}", mode,
-                     crossing.is_destabilising ? "flutters" : "recovers", point.reduced_velocity, point.frequency());
+                     crossing.is_destabilising ? "flutters" : "recovers", point.reduced_velocity,
+                     point.frequency());
     auto entry = flutter_point(context.settings, point.reduced_velocity, point.frequency());
     entry["mode"] = mode;
     entry["destabilising"] = crossing.is_destabilising;
@@ -99,7 +99,8 @@ SolveStatus run_pk(Context& context) {
   report_crossings(context, result, model);
 
   LinearFlutter flutter;
-  flutter.roots = scan_flutter_roots(model, table);
+  flutter.roots = flutter_roots(
+      model, [&](double k) { return section.aerodynamic_matrix(k); }, table);
   for (const FlutterRoot& root : flutter.roots)
     if (!flutter.root && root.is_destabilising()) flutter.root = root;
   report_linear_flutter(context, flutter);

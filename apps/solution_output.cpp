@@ -16,7 +16,8 @@ namespace wingbeat {
 namespace {
 
 constexpr int n = state_size<2>;
-constexpr std::array<const char*, n> state_names{"Density", "MomentumX", "MomentumY", "EnergyStagnationDensity"};
+constexpr std::array<const char*, n> state_names{"Density", "MomentumX", "MomentumY",
+                                                 "EnergyStagnationDensity"};
 
 SectionPosition position_of(const CaseSettings& settings, std::span<const double> y) {
   const double mean = section_kinematics(settings).mean_pitch;
@@ -52,8 +53,9 @@ SolutionInstance<2> instance_of(const MultiblockMesh<2>& mesh, const double* w, 
     part.fields = zone_fields(w, cells, gamma);
     w += cells * n;
     if (moves)
-      for_each(zone.nodes.interior(),
-               [&](const Index<2>& node) { part.nodes.push_back(carried<2>(zone.nodes(node), axis, position)); });
+      for_each(zone.nodes.interior(), [&](const Index<2>& node) {
+        part.nodes.push_back(carried<2>(zone.nodes(node), axis, position));
+      });
     instance.zones.push_back(std::move(part));
   }
   return instance;
@@ -66,8 +68,8 @@ void write_surface(const Context& context, const FlowLevel<2>& level, const Aero
   for (int i = 0; i < time.instances(); ++i) {
     const auto at = static_cast<std::size_t>(i);
     const auto position = position_of(context.settings, std::span<const double>(state.y).subspan(4 * at, 4));
-    const auto points = surface_points<2>(level, level.steady.model(),
-                                          std::span<const double>(state.w).subspan(at * count, count), position);
+    const auto points = surface_points<2>(
+        level, level.steady.model(), std::span<const double>(state.w).subspan(at * count, count), position);
     for (const SurfacePoint& p : points)
       table.add({static_cast<long>(i), time.phase(i), level.mesh.zones[static_cast<std::size_t>(p.zone)].name,
                  p.place[0], p.place[1], p.body[0], p.body[1], p.cp, p.mach});
@@ -80,16 +82,19 @@ void write_surface(const Context& context, const FlowLevel<2>& level, const Aero
 void write_solution_files(const Context& context, const FlowLevel<2>& level, const AeroelasticState& state) {
   const int instances = static_cast<int>(state.y.size() / 4);
   const TimeSpectral time((instances - 1) / 2);
-  const std::vector<double> whole = gather_to_root(context.comm, level.local.global_cell, state.w, instances, n);
+  const std::vector<double> whole =
+      gather_to_root(context.comm, level.local.global_cell, state.w, instances, n);
   const SectionKinematics kinematics = section_kinematics(context.settings);
   on_root(context.comm, [&] {
     Solution<2> solution;
     for (int i = 0; i < instances; ++i) {
       const auto at = static_cast<std::size_t>(i);
-      const auto position = position_of(context.settings, std::span<const double>(state.y).subspan(4 * at, 4));
+      const auto position =
+          position_of(context.settings, std::span<const double>(state.y).subspan(4 * at, 4));
       const bool moves = position.pitch != 0.0 || position.plunge != 0.0;
-      auto instance = instance_of(level.mesh, whole.data() + at * level.mesh.cell_count() * n,
-                                  context.settings.flow.gamma, level.domain.axis(), position, moves || instances > 1);
+      auto instance =
+          instance_of(level.mesh, whole.data() + at * level.mesh.cell_count() * n,
+                      context.settings.flow.gamma, level.domain.axis(), position, moves || instances > 1);
       if (state.omega > 0.0) instance.time = time.phase(i) / state.omega;
       solution.instances.push_back(std::move(instance));
     }

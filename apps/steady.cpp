@@ -19,7 +19,8 @@ SolveStatus run_steady(Context& context) {
   history.write();
   if (level.w.empty()) {
     context.result.message =
-        "stopped by a signal or --walltime before the finest mesh was reached; there is nothing to restart from: "
+        "stopped by a signal or --walltime before the finest mesh was reached; there is nothing to restart "
+        "from: "
         "run again with more time";
     return solved.status;
   }

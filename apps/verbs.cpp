@@ -6,7 +6,11 @@ namespace wingbeat {
 
 std::span<const Verb> verbs() {
   static const std::array table{
-      Verb{"steady", "steady flow and its loads", {"mesh", "partition", "flow", "pitch", "solver"}, run_steady, true},
+      Verb{"steady",
+           "steady flow and its loads",
+           {"mesh", "partition", "flow", "pitch", "solver"},
+           run_steady,
+           true},
       Verb{"flutter",
            "flutter boundary: the speed and frequency at which small motion neither grows nor decays",
            {"mesh", "partition", "flow", "pitch", "time", "structure", "flutter", "solver"},

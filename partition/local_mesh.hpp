@@ -32,8 +32,8 @@ template <int Dim>
 struct LocalMesh {
   std::vector<LocalBlock<Dim>> blocks;
   int owned_count = 0;
-  std::vector<GhostSource> ghosts;      // owner of each ghost cell; ghost g has number owned_count + g
-  std::vector<long> global_cell;        // of each owned cell: its number in the whole mesh, zone by zone
+  std::vector<GhostSource> ghosts;  // owner of each ghost cell; ghost g has number owned_count + g
+  std::vector<long> global_cell;    // of each owned cell: its number in the whole mesh, zone by zone
 };
 
 // The part of `rank`: a pure function of mesh and partition, so that it can be built and

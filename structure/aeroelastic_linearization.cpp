@@ -25,7 +25,8 @@ void AeroelasticLinearization<Dim>::add_flow_by_tail(std::span<const double> t, 
   const std::size_t count = flow->domain().state_count();
   for (std::size_t n = 0; n < instances(); ++n) {
     const auto change = components(kinematics.motion_change(t.subspan(4 * n, 4), r));
-    for (std::size_t k = 0; k < 3; ++k) add(change[k], flow->motion_gradients(n)[k], yw.subspan(n * count, count));
+    for (std::size_t k = 0; k < 3; ++k)
+      add(change[k], flow->motion_gradients(n)[k], yw.subspan(n * count, count));
   }
   if (!is_periodic) return;
   add(t[4 * instances()], flow_by_omega, yw);
@@ -64,7 +65,8 @@ Eigen::VectorXd AeroelasticLinearization<Dim>::forces_by_flow(std::span<const do
 }
 
 template <int Dim>
-void AeroelasticLinearization<Dim>::add_forces_by_flow_adjoint(const Eigen::VectorXd& f, std::span<double> yw) const {
+void AeroelasticLinearization<Dim>::add_forces_by_flow_adjoint(const Eigen::VectorXd& f,
+                                                               std::span<double> yw) const {
   const std::size_t count = flow->domain().state_count();
   for (std::size_t n = 0; n < instances(); ++n) {
     const auto y = yw.subspan(n * count, count);
@@ -76,7 +78,8 @@ void AeroelasticLinearization<Dim>::add_forces_by_flow_adjoint(const Eigen::Vect
 std::vector<double> broadcast_tail(const Comm& comm, std::span<const double> x, std::size_t flow_size,
                                    std::size_t tail_size) {
   std::vector<double> tail(tail_size);
-  if (comm.is_root()) std::copy_n(x.begin() + static_cast<std::ptrdiff_t>(flow_size), tail_size, tail.begin());
+  if (comm.is_root())
+    std::copy_n(x.begin() + static_cast<std::ptrdiff_t>(flow_size), tail_size, tail.begin());
   comm.broadcast(tail);
   return tail;
 }

@@ -16,7 +16,8 @@ namespace wingbeat {
 //   [ dR/dw    G K   R_omega/s  R_r/s ]  [dw^]
 //   [ S_f g          T                ]  [dt ]
 //
-// G: motion gradients, K: kinematics, g: load gradients, S_f = dS/df, T: the dense rest (eq:coupled-jacobian).
+// G: motion gradients, K: kinematics, g: load gradients, S_f = dS/df, T: the dense rest
+// (eq:coupled-jacobian).
 template <int Dim>
 struct AeroelasticLinearization {
   const FlowEquations<Dim>* flow = nullptr;

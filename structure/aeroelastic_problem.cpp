@@ -78,7 +78,8 @@ template <int Dim>
 std::vector<MotionState> AeroelasticProblem<Dim>::motions(const AeroelasticState& state) const {
   std::vector<MotionState> result;
   for (std::size_t n = 0; n < flow_.instance_count(); ++n)
-    result.push_back(linearization_.kinematics.motion(std::span<const double>(state.y).subspan(4 * n, 4), state.r));
+    result.push_back(
+        linearization_.kinematics.motion(std::span<const double>(state.y).subspan(4 * n, 4), state.r));
   return result;
 }
 
@@ -120,7 +121,8 @@ template <int Dim>
 AeroelasticResiduals AeroelasticProblem<Dim>::measure(std::span<const double> f) const {
   const Comm& comm = flow_.domain().comm();
   AeroelasticResiduals result;
-  result.flow = scale_ * std::sqrt(comm.sum(sum_of_squares(f.first(flow_.state_count())))) / uniform_residual_;
+  result.flow =
+      scale_ * std::sqrt(comm.sum(sum_of_squares(f.first(flow_.state_count())))) / uniform_residual_;
   const std::vector<double> tail = broadcast_tail(comm, f, flow_.state_count(), linearization_.tail_size());
   const std::size_t states = base_.y.size();
   result.structure = std::sqrt(sum_of_squares(std::span<const double>(tail).first(states)));
@@ -153,7 +155,8 @@ void AeroelasticProblem<Dim>::linearize(std::span<const double> u) {
 // R_omega and R_r, over s: kappa depends on both, the mesh velocity on r. The time derivative of
 // the base state is zero, so that w^ alone enters.
 template <int Dim>
-void AeroelasticProblem<Dim>::linearize_flow_by_frequency(const AeroelasticState& at, std::span<const double> u) {
+void AeroelasticProblem<Dim>::linearize_flow_by_frequency(const AeroelasticState& at,
+                                                          std::span<const double> u) {
   const SectionKinematics& kinematics = linearization_.kinematics;
   const std::size_t count = flow_.domain().state_count();
   auto& by_omega = linearization_.flow_by_omega;
@@ -184,7 +187,8 @@ void AeroelasticProblem<Dim>::linearize_tail(const AeroelasticState& at, const s
     std::vector<double> unit(f.size(), 0.0), column(at.y.size(), 0.0);
     unit[j] = 1.0;
     structure_.add_force_tangent(load, unit, 1.0, column);
-    by_force.col(static_cast<Eigen::Index>(j)).head(states) = Eigen::Map<Eigen::VectorXd>(column.data(), states);
+    by_force.col(static_cast<Eigen::Index>(j)).head(states) =
+        Eigen::Map<Eigen::VectorXd>(column.data(), states);
   }
 
   Eigen::MatrixXd& tail = linearization_.tail;
@@ -203,7 +207,8 @@ void AeroelasticProblem<Dim>::linearize_tail(const AeroelasticState& at, const s
   structure_.frequency_derivative(at.y, column);
   tail.col(states).head(states) = Eigen::Map<Eigen::VectorXd>(column.data(), states) / scale_;
   structure_.load_derivative(f, column);
-  tail.col(states + 1).head(states) = Eigen::Map<Eigen::VectorXd>(column.data(), states) * (load / at.r / scale_);
+  tail.col(states + 1).head(states) =
+      Eigen::Map<Eigen::VectorXd>(column.data(), states) * (load / at.r / scale_);
   std::vector<double> row(at.y.size(), 0.0);
   add_gradient(AmplitudeCondition(phase_), at.y, 1.0, row);
   tail.row(states).head(states) = Eigen::Map<Eigen::RowVectorXd>(row.data(), states);
@@ -215,8 +220,10 @@ void AeroelasticProblem<Dim>::linearize_tail(const AeroelasticState& at, const s
 template <int Dim>
 void AeroelasticProblem<Dim>::refactor() {
   const double kappa = linearization_.kinematics.kappa(omega_, linearization_.r);
-  if (is_factored()) harmonic_.factor(flow_, kappa);
-  else harmonic_.factor_missing(flow_, kappa);
+  if (is_factored())
+    harmonic_.factor(flow_, kappa);
+  else
+    harmonic_.factor_missing(flow_, kappa);
   preconditioner_.build_responses();
   preconditioner_.update_schur();
 }

@@ -47,12 +47,12 @@ class AeroelasticProblem final : public Problem {
  public:
   // `base`: w_s and y_s, one instance of each, that w^ and y^ are measured from; its r holds in
   // static equilibrium. `factors` may hold factors already, of matrices near those to come.
-  AeroelasticProblem(FlowEquations<Dim>& flow, StructuralEquation structure, const SectionKinematics& kinematics,
-                     std::optional<EnergyCondition> amplitude, AeroelasticState base, HarmonicFactors factors,
-                     const AeroelasticTolerances& tolerances);
+  AeroelasticProblem(FlowEquations<Dim>& flow, StructuralEquation structure,
+                     const SectionKinematics& kinematics, std::optional<EnergyCondition> amplitude,
+                     AeroelasticState base, HarmonicFactors factors, const AeroelasticTolerances& tolerances);
 
   std::vector<double> unknowns(const AeroelasticState& state) const;
-  AeroelasticState state(std::span<const double> u) const;  // collective
+  AeroelasticState state(std::span<const double> u) const;        // collective
   AeroelasticResiduals measure(std::span<const double> f) const;  // collective
   std::vector<MotionState> motions(const AeroelasticState& state) const;
 

@@ -94,7 +94,8 @@ std::vector<double> BorderedPreconditioner<Dim>::x_adjoint(std::span<const doubl
     for (int h = 0; h <= harmonics; ++h)
       for (std::size_t k = 0; k < 3; ++k)
         motion[k] += (sums[3 * static_cast<std::size_t>(h) + k] *
-                      std::polar(1.0, -h * time().phase(static_cast<int>(m)))).real();
+                      std::polar(1.0, -h * time().phase(static_cast<int>(m))))
+                         .real();
     at_.kinematics.add_motion_adjoint({motion[0], motion[1], motion[2]}, at_.r,
                                       std::span<double>(t).subspan(4 * m, 4));
   }
@@ -129,7 +130,8 @@ Eigen::MatrixXd BorderedPreconditioner<Dim>::forces_by_tail() const {
           for (int k = 0; k < 3; ++k)
             for (int load = 0; load < 2; ++load) {
               const auto at = static_cast<std::size_t>(((n * (harmonics + 1) + h) * 3 + k) * 2 + load);
-              forces(2 * n + load, 4 * m + j) += motion[static_cast<std::size_t>(k)] * (turn * loads[at]).real();
+              forces(2 * n + load, 4 * m + j) +=
+                  motion[static_cast<std::size_t>(k)] * (turn * loads[at]).real();
             }
         }
     }

@@ -17,7 +17,8 @@ template <int Dim>
 class BorderedPreconditioner final : public LinearOperator<double> {
  public:
   // `flow_preconditioner`: P in apply; the harmonic one gives the responses.
-  BorderedPreconditioner(const AeroelasticLinearization<Dim>& at, const HarmonicPreconditioner<Dim>& harmonic);
+  BorderedPreconditioner(const AeroelasticLinearization<Dim>& at,
+                         const HarmonicPreconditioner<Dim>& harmonic);
 
   // Uses another approximate inverse of dR/dw in place of the harmonic one.
   void use(const LinearOperator<double>& flow_preconditioner) { flow_preconditioner_ = &flow_preconditioner; }
@@ -34,10 +35,12 @@ class BorderedPreconditioner final : public LinearOperator<double> {
  private:
   using Complex = std::complex<double>;
   const TimeSpectral& time() const { return at_.flow->time(); }
-  std::span<const Complex> response(int h, int k) const { return responses_[static_cast<std::size_t>(3 * h + k)]; }
-  void subtract_x(std::span<const double> t, std::span<double> yw) const;   // yw -= X t
-  std::vector<double> x_adjoint(std::span<const double> xw) const;          // X^T xw, collective
-  Eigen::MatrixXd forces_by_tail() const;                                   // g X, 2N x tail, collective
+  std::span<const Complex> response(int h, int k) const {
+    return responses_[static_cast<std::size_t>(3 * h + k)];
+  }
+  void subtract_x(std::span<const double> t, std::span<double> yw) const;  // yw -= X t
+  std::vector<double> x_adjoint(std::span<const double> xw) const;         // X^T xw, collective
+  Eigen::MatrixXd forces_by_tail() const;                                  // g X, 2N x tail, collective
 
   const AeroelasticLinearization<Dim>& at_;
   const HarmonicPreconditioner<Dim>& harmonic_;

@@ -1,6 +1,7 @@
 #include "structure/flutter_settings.hpp"
 
 #include <algorithm>
+#include <functional>
 
 namespace wingbeat {
 
@@ -31,9 +32,16 @@ void PkSettings::describe(SettingSection& keys) {
            {.help = "V = U/(c omega_alpha) of the table, rising; empty: the range below", .range = above(0)});
   keys.add("reduced_velocity_range", &reduced_velocity_range,
            {.help = "V [first, last] of the table", .range = above(0)});
+  keys.add("frequencies", &frequencies,
+           {.help = "reduced frequencies at which Q(k) is computed, over flutter.reduced_frequency_range",
+            .range = between(4, 1000)});
   keys.add("samples", &samples, {.help = "rows of the table over the range", .range = between(2, 100000)});
   keys.add_rule(
-      "reduced_velocities", [this] { return std::ranges::is_sorted(reduced_velocities); },
+      "reduced_velocities",
+      [this] {
+        return std::ranges::adjacent_find(reduced_velocities, std::greater_equal()) ==
+               reduced_velocities.end();
+      },
       "must rise, so that the branches can be followed");
   keys.add_rule(
       "reduced_velocity_range", [this] { return reduced_velocity_range[0] < reduced_velocity_range[1]; },

@@ -20,6 +20,7 @@ struct FlutterSettings {
 struct PkSettings {
   std::vector<double> reduced_velocities;
   std::array<double, 2> reduced_velocity_range{0.1, 5.0};
+  int frequencies = 24;
   int samples = 50;
 
   // The given list, or the range at equal steps.

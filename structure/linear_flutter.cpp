@@ -1,9 +1,9 @@
 #include "structure/linear_flutter.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-
-#include <fmt/format.h>
 
 #include "core/io/error.hpp"
 #include "structure/harmonic_motion.hpp"
@@ -32,8 +32,8 @@ const FlutterRoot* lowest_destabilising(const std::vector<FlutterRoot>& roots) {
 
 // Polishes, with Q of a section, the destabilising roots that may turn out to be the lowest.
 template <int Dim>
-void polish_lowest(const StructureModel& model, LinearizedSection<Dim>& section, const AerodynamicTable& table,
-                   double tolerance, std::vector<FlutterRoot>& roots) {
+void polish_lowest(const StructureModel& model, LinearizedSection<Dim>& section,
+                   const AerodynamicTable& table, double tolerance, std::vector<FlutterRoot>& roots) {
   constexpr double margin = 1.2;
   const double limit = margin * lowest_destabilising(roots)->reduced_velocity;
   const auto exact = [&](double k) { return section.aerodynamic_matrix(k); };
@@ -57,7 +57,8 @@ LinearizedSection<Dim>::LinearizedSection(FlowLevel<Dim>& level, const SectionKi
                                           AeroelasticState rest, double tolerance)
     : kinematics_(kinematics),
       rest_(std::move(rest)),
-      solver_(std::make_shared<SchwarzSolver<std::complex<double>>>(level.comm(), level.subdomain, state_size<Dim>)),
+      solver_(std::make_shared<SchwarzSolver<std::complex<double>>>(level.comm(), level.subdomain,
+                                                                    state_size<Dim>)),
       response_(level.steady, solver_, tolerance) {
   const std::vector<MotionState> motion{kinematics_.motion(rest_.y, rest_.r)};
   level.steady.linearize(rest_.w, motion, 0.0);
@@ -90,7 +91,8 @@ AeroelasticState LinearizedSection<Dim>::harmonic_state(const StructureModel& mo
     const std::complex<double> turn = std::polar(1.0, time.phase(n));
     const auto plunge_turn = turn * plunge_in_chords, pitch_turn = turn * u_hat[pitch_mode];
     for (std::size_t i = 0; i < rest_.w.size(); ++i)
-      state.w.push_back(rest_.w[i] + (plunge_turn * response.plunge[i] + pitch_turn * response.pitch[i]).real());
+      state.w.push_back(rest_.w[i] +
+                        (plunge_turn * response.plunge[i] + pitch_turn * response.pitch[i]).real());
   }
   return state;
 }
@@ -101,8 +103,8 @@ AeroelasticState static_equilibrium(FlowLevel<Dim>& level, const StructureModel&
                                     const LinearFlutterOptions& options) {
   AeroelasticState start{level.w, std::vector<double>(4, 0.0), 0.0,
                          std::pow(reduced_velocity / kinematics.reference_velocity, 2)};
-  AeroelasticProblem<Dim> problem(level.steady, StructuralEquation(model, TimeSpectral(0)), kinematics, std::nullopt,
-                                  start, {level.solver, {}}, options.tolerances);
+  AeroelasticProblem<Dim> problem(level.steady, StructuralEquation(model, TimeSpectral(0)), kinematics,
+                                  std::nullopt, start, {level.solver, {}}, options.tolerances);
   std::vector<double> u = problem.unknowns(start);
   const NewtonResult result = newton(level.comm(), problem, u, options.newton);
   ensure(result.status == SolveStatus::converged,
@@ -131,7 +133,8 @@ LinearFlutterSolution<Dim> solve_linear_flutter(FlowLevels<Dim>& levels, const S
   for (const auto& level : levels)
     for (int repeat = 0; repeat < max_equilibria; ++repeat) {
       solution.section = std::make_unique<LinearizedSection<Dim>>(
-          *level, kinematics, section_at_rest<Dim>(*level, model, kinematics, speed, options), options.tolerance);
+          *level, kinematics, section_at_rest<Dim>(*level, model, kinematics, speed, options),
+          options.tolerance);
       if (level == levels.front()) {
         table = sampled_matrix<Dim>(*solution.section, options);
         solution.flutter.roots = scan_flutter_roots(model, *table);
@@ -145,22 +148,27 @@ LinearFlutterSolution<Dim> solve_linear_flutter(FlowLevels<Dim>& levels, const S
       if (deflects) speed = found;
       if (!deflects || is_settled) break;
     }
-  if (levels.size() == 1) polish_lowest(model, *solution.section, *table, 10.0 * options.tolerance, solution.flutter.roots);
+  if (levels.size() == 1)
+    polish_lowest(model, *solution.section, *table, 10.0 * options.tolerance, solution.flutter.roots);
   solution.flutter.root = *lowest_destabilising(solution.flutter.roots);
   return solution;
 }
 
 template class LinearizedSection<2>;
-template AeroelasticState static_equilibrium<2>(FlowLevel<2>&, const StructureModel&, const SectionKinematics&,
-                                                double, const LinearFlutterOptions&);
+template AeroelasticState static_equilibrium<2>(FlowLevel<2>&, const StructureModel&,
+                                                const SectionKinematics&, double,
+                                                const LinearFlutterOptions&);
 template AerodynamicTable sampled_matrix<2>(LinearizedSection<2>&, const LinearFlutterOptions&);
 template LinearFlutterSolution<2> solve_linear_flutter<2>(FlowLevels<2>&, const StructureModel&,
-                                                           const SectionKinematics&, const LinearFlutterOptions&);
+                                                          const SectionKinematics&,
+                                                          const LinearFlutterOptions&);
 template class LinearizedSection<3>;
-template AeroelasticState static_equilibrium<3>(FlowLevel<3>&, const StructureModel&, const SectionKinematics&,
-                                                double, const LinearFlutterOptions&);
+template AeroelasticState static_equilibrium<3>(FlowLevel<3>&, const StructureModel&,
+                                                const SectionKinematics&, double,
+                                                const LinearFlutterOptions&);
 template AerodynamicTable sampled_matrix<3>(LinearizedSection<3>&, const LinearFlutterOptions&);
 template LinearFlutterSolution<3> solve_linear_flutter<3>(FlowLevels<3>&, const StructureModel&,
-                                                           const SectionKinematics&, const LinearFlutterOptions&);
+                                                          const SectionKinematics&,
+                                                          const LinearFlutterOptions&);
 
 }  // namespace wingbeat

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "flow/steady_sequence.hpp"
 #include "flow/frequency_response.hpp"
+#include "flow/steady_sequence.hpp"
 #include "structure/aeroelastic_problem.hpp"
 #include "structure/flutter_roots.hpp"
 #include "structure/section_kinematics.hpp"
@@ -44,8 +44,8 @@ class LinearizedSection {
 struct LinearFlutterOptions {
   std::array<double, 2> reduced_frequency_range{0.02, 0.6};
   int samples = 12;
-  double tolerance = 1e-8;         // of the linear solves behind Q
-  NewtonOptions newton{};          // of static equilibrium
+  double tolerance = 1e-8;  // of the linear solves behind Q
+  NewtonOptions newton{};   // of static equilibrium
   AeroelasticTolerances tolerances{};
 };
 

@@ -25,14 +25,16 @@ class Problem {
   virtual bool is_factored() const = 0;
   virtual const LinearOperator<double>& preconditioner() const = 0;
   // Largest step in (0, 1] that keeps u + step du sensible; 1 unless overridden.
-  virtual double step_limit(std::span<const double> /*u*/, std::span<const double> /*du*/) const { return 1.0; }
+  virtual double step_limit(std::span<const double> /*u*/, std::span<const double> /*du*/) const {
+    return 1.0;
+  }
   // Whether u is converged by the problem's own measure of its rows, given F(u).
   virtual bool is_converged(std::span<const double> f) const = 0;
 };
 
 struct NewtonOptions {
   int max_iterations = 30;
-  double forcing_max = 1e-1;     // Eisenstat-Walker, choice 2 (doi:10.1137/0917003)
+  double forcing_max = 1e-1;  // Eisenstat-Walker, choice 2 (doi:10.1137/0917003)
   double forcing_min = 1e-6;
   int refactor_iterations = 25;  // more Krylov iterations than this in a solve: refactor before the next
   int max_backtracks = 8;

@@ -34,7 +34,6 @@ class Log {
   void show_status(std::string_view text);
   void clear_status();
   bool speaks() const { return speaks_; }
-  bool is_live() const { return is_live_; }
 
  private:
   bool speaks_;

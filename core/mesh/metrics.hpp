@@ -31,8 +31,8 @@ inline Vec<double, 3> cross(const Vec<double, 3>& a, const Vec<double, 3>& b) {
 
 // 3-D bilinear face with corners x(s, t): x00, x10, x01, x11; its normal is along x_s cross x_t.
 // Two Gauss points a direction integrate the quadratic integrands exactly (eq:face-moment).
-inline FaceMetrics<3> face_metrics(const Vec<double, 3>& x00, const Vec<double, 3>& x10, const Vec<double, 3>& x01,
-                                   const Vec<double, 3>& x11) {
+inline FaceMetrics<3> face_metrics(const Vec<double, 3>& x00, const Vec<double, 3>& x10,
+                                   const Vec<double, 3>& x01, const Vec<double, 3>& x11) {
   constexpr std::array<double, 2> points{0.21132486540518711775, 0.78867513459481288225};
   FaceMetrics<3> face;
   for (double s : points)

@@ -20,9 +20,7 @@ struct Dual {
 
   Dual() = default;
   Dual(const T& v) : value(v) {}  // implicit: a constant is a dual with zero gradient
-  Dual(double v)
-    requires(!std::is_same_v<T, double>)
-      : value(v) {}
+  Dual(double v) requires(!std::is_same_v<T, double>) : value(v) {}
 
   static Dual seed(const T& v, int i) {
     Dual x(v);
@@ -75,26 +73,10 @@ struct Dual {
     return chain(b, quotient, -quotient / b.value);
   }
 
-  friend Dual operator+(Dual a, const T& b)
-    requires(!std::is_same_v<T, double>)
-  {
-    return a.value += b, a;
-  }
-  friend Dual operator-(Dual a, const T& b)
-    requires(!std::is_same_v<T, double>)
-  {
-    return a.value -= b, a;
-  }
-  friend Dual operator*(Dual a, const T& b)
-    requires(!std::is_same_v<T, double>)
-  {
-    return a.scale(b);
-  }
-  friend Dual operator*(const T& a, Dual b)
-    requires(!std::is_same_v<T, double>)
-  {
-    return b.scale(a);
-  }
+  friend Dual operator+(Dual a, const T& b) requires(!std::is_same_v<T, double>) { return a.value += b, a; }
+  friend Dual operator-(Dual a, const T& b) requires(!std::is_same_v<T, double>) { return a.value -= b, a; }
+  friend Dual operator*(Dual a, const T& b) requires(!std::is_same_v<T, double>) { return a.scale(b); }
+  friend Dual operator*(const T& a, Dual b) requires(!std::is_same_v<T, double>) { return b.scale(a); }
 
   friend auto operator<(const Dual& a, const Dual& b) { return a.value < b.value; }
   friend auto operator>(const Dual& a, const Dual& b) { return a.value > b.value; }

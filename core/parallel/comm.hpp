@@ -1,11 +1,11 @@
 #pragma once
 
+#include <mpi.h>
+
 #include <complex>
 #include <span>
 #include <string>
 #include <vector>
-
-#include <mpi.h>
 
 namespace wingbeat {
 

@@ -37,6 +37,10 @@ TEST_F(CommandLineOfProgram, WrongCommandLinesAreBadInput) {
   EXPECT_EQ(walltime.exit_code, 2);
   expect_in("not a number of seconds > 0", walltime.errors);
   EXPECT_EQ(run({"partition", "case.toml", "--ranks", "0"}).exit_code, 2);
+  EXPECT_EQ(run({"mesh", "case.toml", "--restart", "case.toml"}).exit_code, 2) << "it has nothing to restart";
+  const auto repeated = run({"pk", "case.toml", "pk.reduced_velocities=[1, 2, 2]"});
+  EXPECT_EQ(repeated.exit_code, 2);
+  expect_in("must rise", repeated.errors);
 }
 
 TEST_F(CommandLineOfProgram, OutputFolderIsNamedByCaseAndVerb) {

@@ -91,7 +91,7 @@ TEST(Conditions, GradientsAreExact) {
   const TimeSpectral time(2);
   const Values y = arbitrary(time);
   expect_gradient(energy_condition(section(), 0.3), y);
-  expect_gradient(first_harmonic_condition(section(), time, pitch, 0.2), y);
+  expect_gradient(first_harmonic_condition(section(), time, pitch_mode, 0.2), y);
   expect_gradient(phase_condition(section(), time), y);
 }
 
@@ -101,11 +101,11 @@ TEST(Conditions, ReadTheFirstHarmonicOfTheirModeAlone) {
   // Plunge at another phase, a mean and higher harmonics in pitch: none of them counts.
   Values y = harmonic_states(model, time, Eigen::Vector2cd(Complex(0.3, 0.2), Complex(0.07, -0.2)), 0.65);
   for (int n = 0; n < time.instances(); ++n)
-    y[static_cast<std::size_t>(4 * n + pitch)] +=
+    y[static_cast<std::size_t>(4 * n + pitch_mode)] +=
         0.5 + 0.3 * std::cos(2.0 * time.phase(n)) - 0.1 * std::sin(3.0 * time.phase(n));
   EXPECT_NEAR(value(phase_condition(model, time), y), 0.07, 1e-15);
-  EXPECT_NEAR(value(first_harmonic_condition(model, time, pitch, 0.2), y), 0.0, 1e-15);
-  EXPECT_NEAR(value(first_harmonic_condition(model, time, pitch, 0.1), y), 1.0, 1e-14);
+  EXPECT_NEAR(value(first_harmonic_condition(model, time, pitch_mode, 0.2), y), 0.0, 1e-15);
+  EXPECT_NEAR(value(first_harmonic_condition(model, time, pitch_mode, 0.1), y), 1.0, 1e-14);
   const Eigen::VectorXcd first = first_harmonic(model, time, y);
   EXPECT_LT((first - Eigen::Vector2cd(Complex(0.3, 0.2), Complex(0.07, -0.2))).norm(), 1e-15);
 }
@@ -125,7 +125,7 @@ TEST(HarmonicMotion, ScaledModeMeetsPhaseAndEnergy) {
 
 TEST(Conditions, RefuseAmplitudesThatAreNotPositive) {
   EXPECT_THROW(energy_condition(section(), 0.0), InputError);
-  EXPECT_THROW(first_harmonic_condition(section(), TimeSpectral(1), pitch, -0.1), InputError);
+  EXPECT_THROW(first_harmonic_condition(section(), TimeSpectral(1), pitch_mode, -0.1), InputError);
   EXPECT_THROW(first_harmonic_condition(section(), TimeSpectral(1), 2, 0.1), InputError);
 }
 

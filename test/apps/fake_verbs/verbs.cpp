@@ -52,8 +52,11 @@ SolveStatus break_one(Context& context) {
 
 std::span<const Verb> verbs() {
   static const std::array table{
-      Verb{"succeed", "", {}, succeed, true},     Verb{"stall", "", {}, stall},         Verb{"wait", "", {}, wait},
-      Verb{"break-all", "", {}, break_all}, Verb{"break-one", "", {}, break_one},
+      Verb{"succeed", "", {}, succeed, true},
+      Verb{"stall", "", {}, stall},
+      Verb{"wait", "", {}, wait},
+      Verb{"break-all", "", {}, break_all},
+      Verb{"break-one", "", {}, break_one},
   };
   return table;
 }

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "model_grid.hpp"
+#include "test/core/algebra/model_grid.hpp"
 
 namespace wingbeat::test {
 namespace {

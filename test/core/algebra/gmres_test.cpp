@@ -5,7 +5,7 @@
 #include <functional>
 #include <limits>
 
-#include "model_grid.hpp"
+#include "test/core/algebra/model_grid.hpp"
 
 namespace wingbeat::test {
 namespace {

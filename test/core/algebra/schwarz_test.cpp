@@ -6,7 +6,7 @@
 
 #include "core/algebra/gmres.hpp"
 #include "core/io/error.hpp"
-#include "model_grid.hpp"
+#include "test/core/algebra/model_grid.hpp"
 
 namespace wingbeat::test {
 namespace {

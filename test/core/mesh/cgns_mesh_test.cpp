@@ -1,17 +1,12 @@
 #include "core/mesh/cgns_mesh.hpp"
 
-#include <cgnslib.h>
-#include <gtest/gtest.h>
-
 #include <array>
 #include <fstream>
-#include <functional>
 #include <vector>
 
 #include "core/mesh/mesh_file.hpp"
+#include "test/core/mesh/cgns_example.hpp"
 #include "test/core/mesh/example_meshes.hpp"
-#include "test/core/mesh/message.hpp"
-#include "test/core/mesh/temporary_folder.hpp"
 
 namespace wingbeat {
 namespace {
@@ -28,76 +23,6 @@ template <int Dim>
 bool survives(const MultiblockMesh<Dim>& mesh, const fs::path& path) {
   write_cgns(mesh, path);
   return same(read_back<Dim>(path), mesh);
-}
-
-void copy_as_adf(const fs::path& from, const fs::path& to) {
-  int fn = 0;
-  ASSERT_EQ(cg_open(from.c_str(), CG_MODE_READ, &fn), CG_OK);
-  ASSERT_EQ(cg_save_as(fn, to.c_str(), CG_FILE_ADF, 0), CG_OK);
-  ASSERT_EQ(cg_close(fn), CG_OK);
-}
-
-// Changes a file through the library, as another program might have written it.
-void edit(const fs::path& path, const std::function<void(int fn)>& change) {
-  int fn = 0;
-  ASSERT_EQ(cg_open(path.c_str(), CG_MODE_MODIFY, &fn), CG_OK) << cg_get_error();
-  change(fn);
-  ASSERT_EQ(cg_close(fn), CG_OK) << cg_get_error();
-}
-
-// A file written by other means than write_cgns: one zone, as told.
-struct RawFile {
-  int cell_dim = 2;
-  int physical_dim = 2;
-  std::vector<cgsize_t> size{3, 3, 2, 2, 0, 0};
-  ZoneType_t type = Structured;
-  std::vector<std::pair<std::string, std::vector<float>>> coordinates;
-  struct Patch {
-    std::string name;
-    BCType_t type = BCFarfield;
-    std::vector<cgsize_t> range;
-    GridLocation_t location = Vertex;
-    PointSetType_t points = PointRange;
-  };
-  std::vector<Patch> patches;
-
-  void write(const fs::path& path) const {
-    int fn = 0, base = 0, zone = 0, n = 0;
-    cg_set_file_type(CG_FILE_ADF);
-    ASSERT_EQ(cg_open(path.c_str(), CG_MODE_WRITE, &fn), CG_OK);
-    ASSERT_EQ(cg_base_write(fn, "Base", cell_dim, physical_dim, &base), CG_OK);
-    ASSERT_EQ(cg_zone_write(fn, base, "raw", size.data(), type, &zone), CG_OK) << cg_get_error();
-    for (const auto& [name, values] : coordinates)
-      ASSERT_EQ(cg_coord_write(fn, base, zone, RealSingle, name.c_str(), values.data(), &n), CG_OK);
-    for (const Patch& patch : patches) {
-      const auto count = static_cast<cgsize_t>(patch.range.size()) / cell_dim;
-      ASSERT_EQ(cg_boco_write(fn, base, zone, patch.name.c_str(), patch.type, patch.points, count,
-                              patch.range.data(), &n),
-                CG_OK)
-          << cg_get_error();
-      if (patch.location != Vertex) {
-        ASSERT_EQ(cg_boco_gridlocation_write(fn, base, zone, n, patch.location), CG_OK) << cg_get_error();
-      }
-    }
-    ASSERT_EQ(cg_close(fn), CG_OK);
-  }
-};
-
-// The unit square of 2 x 2 cells between far-field sides, in single precision.
-RawFile raw_square() {
-  RawFile raw;
-  raw.coordinates = {{"CoordinateX", {0, .5F, 1, 0, .5F, 1, 0, .5F, 1}},
-                     {"CoordinateY", {0, 0, 0, .5F, .5F, .5F, 1, 1, 1}}};
-  raw.patches = {{"west", BCFarfield, {1, 1, 1, 3}},
-                 {"east", BCFarfield, {3, 1, 3, 3}},
-                 {"south", BCWallViscous, {1, 1, 3, 1}},
-                 {"north", BCFarfield, {1, 3, 3, 3}}};
-  return raw;
-}
-
-std::string refusal(const RawFile& raw, const TemporaryFolder& folder) {
-  raw.write(folder / "raw.cgns");
-  return message_of([&] { read_mesh(folder / "raw.cgns"); });
 }
 
 TEST(CgnsMesh, RoundTripIsExact) {
@@ -291,150 +216,6 @@ TEST(CgnsMesh, ResolvesFamilies) {
   const MultiblockMesh<2> mesh = read_back<2>(folder / "raw.cgns");
   EXPECT_EQ(mesh.zones[0].patches[2].type, BoundaryType::symmetry);
   EXPECT_EQ(mesh.zones[0].patches[2].family, "Section");
-}
-
-TEST(CgnsMesh, RefusesUnknownBoundaryTypes) {
-  const TemporaryFolder folder;
-  RawFile raw = raw_square();
-  raw.patches[1].type = BCOutflow;
-  const std::string message = refusal(raw, folder);
-  expect_contains(
-      message, "raw.cgns: zone 'raw', patch 'east': boundary type BCOutflow is not supported; allowed are");
-  expect_contains(message, "BCSymmetryPlane and BCFarfield");
-}
-
-TEST(CgnsMesh, RefusesAMissingBoundary) {
-  const TemporaryFolder folder;
-  RawFile raw = raw_square();
-  raw.patches.pop_back();
-  expect_contains(refusal(raw, folder),
-                  "raw.cgns: 1 fault in the mesh (indices count from 1):\n  zone 'raw', side "
-                  "j-high, cell (1, 2): no boundary condition and no interface (2 cells in all)");
-}
-
-TEST(CgnsMesh, RefusesDegenerateAndInnerPatches) {
-  const TemporaryFolder folder;
-  RawFile raw = raw_square();
-  raw.patches[0].range = {1, 1, 1, 1};
-  expect_contains(refusal(raw, folder),
-                  "zone 'raw', patch 'west': its range (1, 1) to (1, 1) is not a face on a side");
-  raw.patches[0].range = {2, 1, 2, 3};
-  expect_contains(refusal(raw, folder),
-                  "zone 'raw', patch 'west': its range (2, 1) to (2, 3) is not a face on a side");
-}
-
-TEST(CgnsMesh, RefusesListsOfPoints) {
-  const TemporaryFolder folder;
-  RawFile raw = raw_square();
-  raw.patches[0].points = PointList;
-  raw.patches[0].range = {1, 1, 1, 2, 1, 3};
-  expect_contains(refusal(raw, folder), "zone 'raw', patch 'west': its points are given as PointList");
-}
-
-TEST(CgnsMesh, RefusesUnstructuredZones) {
-  const TemporaryFolder folder;
-  RawFile raw;
-  raw.type = Unstructured;
-  raw.size = {9, 4, 0};
-  expect_contains(refusal(raw, folder),
-                  "raw.cgns: zone 'raw': is Unstructured; only structured zones are supported");
-}
-
-TEST(CgnsMesh, RefusesZonesWithoutCoordinates) {
-  const TemporaryFolder folder;
-  RawFile raw = raw_square();
-  raw.coordinates.pop_back();
-  expect_contains(refusal(raw, folder), "raw.cgns: zone 'raw': has no CoordinateY; it has CoordinateX");
-  raw.coordinates.clear();
-  expect_contains(refusal(raw, folder), "raw.cgns: zone 'raw': has no coordinates");
-}
-
-TEST(CgnsMesh, RefusesAConnectionListedOnOneSideOnly) {
-  const TemporaryFolder folder;
-  MultiblockMesh<2> mesh = row_of_blocks<2>(2, {3, 3});
-  mesh.zones[1].interfaces.clear();
-  add_patch<2>(mesh.zones[1], "hole", BoundaryType::farfield, {0, 0});
-  write_cgns(mesh, folder / "mesh.cgns");
-  expect_contains(
-      message_of([&] { read_mesh(folder / "mesh.cgns"); }),
-      "zone 'block-1', interface 'next': its donor, zone 'block-2', does not list the reverse connection");
-}
-
-TEST(CgnsMesh, RefusesContradictingConnections) {
-  const TemporaryFolder folder;
-  const auto refuse_connection = [&](std::array<cgsize_t, 4> range, std::array<cgsize_t, 4> donor,
-                                     std::array<int, 2> transform, const std::string& donor_name) {
-    raw_square().write(folder / "raw.cgns");
-    edit(folder / "raw.cgns", [&](int fn) {
-      int n = 0;
-      ASSERT_EQ(cg_1to1_write(fn, 1, 1, "link", donor_name.c_str(), range.data(), donor.data(),
-                              transform.data(), &n),
-                CG_OK)
-          << cg_get_error();
-    });
-    return message_of([&] { read_mesh(folder / "raw.cgns"); });
-  };
-  expect_contains(refuse_connection({1, 1, 1, 3}, {3, 1, 3, 3}, {1, 2}, "tail"),
-                  "zone 'raw', interface 'link': there is no donor zone 'tail'");
-  expect_contains(refuse_connection({1, 1, 1, 3}, {3, 1, 3, 3}, {1, -2}, "raw"),
-                  "interface 'link': its Transform does not carry PointRange to PointRangeDonor");
-  expect_contains(refuse_connection({1, 1, 1, 1}, {3, 1, 3, 1}, {1, 2}, "raw"),
-                  "interface 'link': its PointRange (1, 1) to (1, 1) is not a face on a side");
-}
-
-TEST(CgnsMesh, RefusesPeriodicAndGeneralConnections) {
-  const TemporaryFolder folder;
-  write_cgns(ring(8, 3), folder / "ring.cgns");
-  edit(folder / "ring.cgns", [](int fn) {
-    const std::array<float, 3> centre{}, angle{}, shift{1.0F, 0.0F, 0.0F};
-    ASSERT_EQ(cg_1to1_periodic_write(fn, 1, 1, 1, centre.data(), angle.data(), shift.data()), CG_OK)
-        << cg_get_error();
-  });
-  expect_contains(message_of([&] { read_mesh(folder / "ring.cgns"); }),
-                  "periodic connections are not supported");
-
-  raw_square().write(folder / "raw.cgns");
-  edit(folder / "raw.cgns", [](int fn) {
-    const std::array<cgsize_t, 4> range{1, 1, 1, 3};
-    const std::array<cgsize_t, 6> donors{3, 1, 3, 2, 3, 3};
-    int n = 0;
-    ASSERT_EQ(cg_conn_write(fn, 1, 1, "slide", Vertex, Abutting, PointRange, 2, range.data(), "raw",
-                            Structured, PointListDonor, Integer, 3, donors.data(), &n),
-              CG_OK)
-        << cg_get_error();
-  });
-  expect_contains(message_of([&] { read_mesh(folder / "raw.cgns"); }), "zone 'raw': its general connections");
-}
-
-TEST(CgnsMesh, RefusesFilesThatAreNotCgns) {
-  const TemporaryFolder folder;
-  expect_contains(message_of([&] { read_cgns(folder / "none.cgns"); }), "none.cgns: no such file");
-  std::ofstream(folder / "text.cgns") << "this is no mesh";
-  expect_contains(message_of([&] { read_mesh(folder / "text.cgns"); }),
-                  "text.cgns: not a readable CGNS file (ADF or HDF5): cg");
-
-  write_cgns(ring(8, 3), folder / "ring.cgns");
-  fs::resize_file(folder / "ring.cgns", fs::file_size(folder / "ring.cgns") / 2);
-  expect_contains(message_of([&] { read_mesh(folder / "ring.cgns"); }),
-                  "ring.cgns: not a readable CGNS file");
-  write_cgns(ring(8, 3), folder / "hdf5.cgns");
-  copy_as_adf(folder / "hdf5.cgns", folder / "adf.cgns");
-  fs::resize_file(folder / "adf.cgns", fs::file_size(folder / "adf.cgns") / 2);
-  expect_contains(message_of([&] { read_mesh(folder / "adf.cgns"); }), "adf.cgns: ");
-}
-
-TEST(CgnsMesh, WritesWholeFilesOrNone) {
-  const TemporaryFolder folder;
-  MultiblockMesh<2> mesh = ring(8, 3, std::string(33, 'x'));
-  expect_contains(message_of([&] { write_cgns(mesh, folder / "mesh.cgns"); }),
-                  "CGNS takes 1 to 32 characters");
-  mesh = row_of_blocks<2>(2, {2, 2});
-  mesh.zones[1].name = mesh.zones[0].name;
-  expect_contains(message_of([&] { write_cgns(mesh, folder / "mesh.cgns"); }),
-                  "the name 'block-1' is used twice");
-  EXPECT_EQ(folder.file_count(), 0U);
-  std::ofstream(folder / "file") << "x";
-  expect_contains(message_of([&] { write_cgns(ring(8, 3), folder / "file/mesh.cgns"); }), "file");
 }
 
 }  // namespace
