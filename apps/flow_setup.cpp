@@ -101,21 +101,6 @@ Coefficients coefficients(const CaseSettings& settings, const Loads<double>& loa
   return result;
 }
 
-void report_steady(Context& context, FlowLevel<2>& level, const MotionState& motion,
-                   const PseudoTransientResult& solved) {
-  const Loads<double> loads = level.steady.loads(level.w, std::span<const MotionState>(&motion, 1))[0];
-  const Coefficients c = coefficients(context.settings, loads, motion.pitch);
-  context.result.findings["steady"] = {{"cl", c.cl},
-                                       {"cd", c.cd},
-                                       {"cm", c.cm},
-                                       {"residual", solved.residual},
-                                       {"iterations", solved.iterations},
-                                       {"linear_iterations", solved.linear_iterations},
-                                       {"factorizations", solved.factorizations}};
-  context.log.line("\ncl = {:.8f}   cd = {:.8f}   cm = {:.8f}   residual {:.1e}", c.cl, c.cd, c.cm,
-                   solved.residual);
-}
-
 template FlowModel<2, double> flow_model<2>(const FlowSettings&);
 template FlowModel<3, double> flow_model<3>(const FlowSettings&);
 template FlowLevels<2> make_levels<2>(Context&, const MultiblockMesh<2>&);

@@ -33,8 +33,4 @@ struct Coefficients {
 };
 Coefficients coefficients(const CaseSettings& settings, const Loads<double>& loads, double pitch);
 
-// Prints the loads of the level's steady state and puts them into result.json. Collective.
-void report_steady(Context& context, FlowLevel<2>& level, const MotionState& motion,
-                   const PseudoTransientResult& solved);
-
 }  // namespace wingbeat

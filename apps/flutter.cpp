@@ -7,6 +7,7 @@
 #include "apps/history.hpp"
 #include "apps/linear_flutter_output.hpp"
 #include "apps/solution_output.hpp"
+#include "apps/steady_stage.hpp"
 #include "apps/verbs.hpp"
 #include "core/io/progress.hpp"
 #include "structure/energy.hpp"
@@ -43,9 +44,9 @@ std::vector<double> mean_instance(const std::vector<double>& field, const TimeSp
   return mean;
 }
 
-Start restarted(const Context& context, FlowLevel<2>& level, const TimeSpectral& time) {
+Start restarted(FlowLevel<2>& level, const TimeSpectral& time, AeroelasticState state) {
   Start start;
-  start.state = read_restart(context, level, time.instances());
+  start.state = std::move(state);
   start.rest = {mean_instance(start.state.w, time), mean_instance(start.state.y, time), 0.0, start.state.r};
   start.factors = unfactored(level.comm(), level.subdomain, state_size<2>, time.harmonics());
   return start;
@@ -138,22 +139,21 @@ SolveStatus run_flutter(Context& context) {
   FlowLevels<2> levels = make_levels<2>(context, make_plane_mesh(settings.mesh));
   FlowLevel<2>& level = *levels.back();
   History history(context);
-  if (context.restart) return solve_coupled(context, level, model, restarted(context, level, time), history);
-
-  const SectionKinematics kinematics = section_kinematics(settings);
-  const MotionState at_rest{kinematics.mean_pitch, 0.0, 0.0};
-  const PseudoTransientResult steady = solve_steady_with_progress(context, levels, at_rest, history);
-  history.write();
-  if (steady.status != SolveStatus::converged) {
-    context.result.message = steady_advice(steady.status, settings.solver);
-    return steady.status;
+  if (context.restart) {
+    // A periodic solution goes straight to Newton; a steady one is where the steady flow starts.
+    AeroelasticState state = read_restart(context, level, {1, time.instances()});
+    if (state.y.size() > 4)
+      return solve_coupled(context, level, model, restarted(level, time, std::move(state)), history);
+    level.w = std::move(state.w);
   }
-  report_steady(context, level, at_rest, steady);
+  const SolveStatus steady = run_steady_stage(context, levels, history);
+  if (steady != SolveStatus::converged) return steady;
 
   LinearFlutterSolution<2> linear;
   {
     const auto part = context.timer.measure("linear flutter");
-    linear = solve_linear_flutter<2>(levels, model, kinematics, linear_flutter_options(settings));
+    linear =
+        solve_linear_flutter<2>(levels, model, section_kinematics(settings), linear_flutter_options(context));
   }
   report_linear_flutter(context, linear.flutter);
   if (!linear.flutter.root) {

@@ -30,8 +30,4 @@ class History {
   CsvTable table_;
 };
 
-// Solves the steady flow on all levels with progress lines. Collective.
-PseudoTransientResult solve_steady_with_progress(Context& context, FlowLevels<2>& levels,
-                                                 const MotionState& motion, History& history);
-
 }  // namespace wingbeat

@@ -4,13 +4,15 @@
 
 namespace wingbeat {
 
-LinearFlutterOptions linear_flutter_options(const CaseSettings& settings) {
+LinearFlutterOptions linear_flutter_options(const Context& context) {
+  const CaseSettings& settings = context.settings;
   LinearFlutterOptions options;
   options.reduced_frequency_range = settings.flutter.reduced_frequency_range;
   options.samples = settings.flutter.samples;
   options.newton.max_iterations = settings.solver.max_newton_iterations;
   options.newton.gmres = gmres_options(settings.solver);
   options.tolerances = {settings.solver.flow_tolerance, settings.solver.structure_tolerance};
+  options.is_stopped = [&stop = context.stop] { return stop.is_set(); };
   return options;
 }
 

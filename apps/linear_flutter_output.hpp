@@ -5,7 +5,7 @@
 
 namespace wingbeat {
 
-LinearFlutterOptions linear_flutter_options(const CaseSettings& settings);
+LinearFlutterOptions linear_flutter_options(const Context& context);
 
 // The four numbers of a flutter point, as result.json names them.
 nlohmann::ordered_json flutter_point(const CaseSettings& settings, double reduced_velocity, double omega);

@@ -1,11 +1,10 @@
 #include "structure/pk.hpp"
 
-#include "apps/advice.hpp"
 #include "apps/case_mesh.hpp"
 #include "apps/flow_setup.hpp"
-#include "apps/history.hpp"
 #include "apps/linear_flutter_output.hpp"
 #include "apps/on_root.hpp"
+#include "apps/steady_stage.hpp"
 #include "apps/verbs.hpp"
 #include "core/io/csv.hpp"
 #include "core/io/progress.hpp"
@@ -79,18 +78,13 @@ SolveStatus run_pk(Context& context) {
   FlowLevels<2> levels = make_levels<2>(context, make_plane_mesh(settings.mesh));
   FlowLevel<2>& level = *levels.back();
   History history(context);
-  const MotionState at_rest{kinematics.mean_pitch, 0.0, 0.0};
-  const PseudoTransientResult steady = solve_steady_with_progress(context, levels, at_rest, history);
-  history.write();
-  if (steady.status != SolveStatus::converged) {
-    context.result.message = steady_advice(steady.status, settings.solver);
-    return steady.status;
-  }
-  report_steady(context, level, at_rest, steady);
+  const SolveStatus steady = run_steady_stage(context, levels, history);
+  if (steady != SolveStatus::converged) return steady;
 
   // Where the section carries lift, Q(k) is of the undeflected section: a table for all speeds.
   const AeroelasticState rest{level.w, std::vector<double>(4, 0.0), 0.0, 1.0};
-  LinearizedSection<2> section(level, kinematics, rest, linear_flutter_options(settings).tolerance);
+  const LinearFlutterOptions options = linear_flutter_options(context);
+  LinearizedSection<2> section(level, kinematics, rest, options.tolerance, options.is_stopped);
   const AerodynamicTable table = sampled_with_progress(context, section);
   write_matrix(context, table);
   const std::vector<double> velocities = settings.pk.velocities();

@@ -80,6 +80,16 @@ void finish(const Comm& comm, Context& context) {
                    context.output.string());
 }
 
+// A stage that a recipe cannot do without may end unsolved: the run then ends so, too.
+SolveStatus run_verb(const Verb& verb, Context& context) {
+  try {
+    return verb.run(context);
+  } catch (const SolveFailure& failure) {
+    context.result.message = failure.what();
+    return failure.status();
+  }
+}
+
 int execute(const Comm& comm, const CommandLine& command, Result& result, Timer& timer) {
   const Verb& verb = find_verb(command.verb);
   if (!command.dry_run) remove_old_result(comm, command.output);
@@ -105,7 +115,7 @@ int execute(const Comm& comm, const CommandLine& command, Result& result, Timer&
                   .timer = timer,
                   .result = result,
                   .stop = stop};
-  const SolveStatus status = verb.run(context);
+  const SolveStatus status = run_verb(verb, context);
   result.status = to_string(status);
   if (result.message.empty()) result.message = general_advice(status);
   if (status != SolveStatus::converged) log.warn(result.message);

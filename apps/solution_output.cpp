@@ -1,5 +1,8 @@
 #include "apps/solution_output.hpp"
 
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -109,13 +112,18 @@ void write_solution_files(const Context& context, const FlowLevel<2>& level, con
   write_surface(context, level, state);
 }
 
-AeroelasticState read_restart(const Context& context, const FlowLevel<2>& level, int instances) {
+AeroelasticState read_restart(const Context& context, const FlowLevel<2>& level,
+                              const std::vector<int>& allowed_instances) {
   std::vector<double> whole, data;
+  double count = 0.0;
   on_root(context.comm, [&] {
     const Solution<2> solution = read_solution<2>(*context.restart, level.mesh);
-    if (static_cast<int>(solution.instances.size()) != instances)
-      throw InputError(fmt::format("{}: holds {} instances, the case needs {}; set time.harmonics to match",
-                                   context.restart->string(), solution.instances.size(), instances));
+    const int held = static_cast<int>(solution.instances.size());
+    if (std::ranges::find(allowed_instances, held) == allowed_instances.end())
+      throw InputError(
+          fmt::format("{}: holds {} instances, this run can start from {}; set time.harmonics to match",
+                      context.restart->string(), held, fmt::join(allowed_instances, " or ")));
+    count = held;
     for (const auto& instance : solution.instances)
       for (const auto& zone : instance.zones)
         for (std::size_t c = 0; c < zone.fields[0].values.size(); ++c)
@@ -136,9 +144,11 @@ AeroelasticState read_restart(const Context& context, const FlowLevel<2>& level,
     data = value("y");
     data.push_back(value("omega")[0]);
     data.push_back(value("freestream_parameter")[0]);
-    if (data.size() != static_cast<std::size_t>(4 * instances + 2))
+    if (data.size() != static_cast<std::size_t>(4 * held + 2))
       throw InputError(fmt::format("{}: its structural state does not fit", context.restart->string()));
   });
+  context.comm.broadcast(count);
+  const int instances = static_cast<int>(count);
   data.resize(static_cast<std::size_t>(4 * instances + 2));
   context.comm.broadcast(data);
   AeroelasticState state;

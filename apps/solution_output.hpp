@@ -12,7 +12,8 @@ namespace wingbeat {
 void write_solution_files(const Context& context, const FlowLevel<2>& level, const AeroelasticState& state);
 
 // The state that solution.cgns of an earlier run on the same mesh holds. Throws InputError when it is of
-// another mesh or number of instances. Collective.
-AeroelasticState read_restart(const Context& context, const FlowLevel<2>& level, int instances);
+// another mesh or holds a number of instances that is not among those allowed. Collective.
+AeroelasticState read_restart(const Context& context, const FlowLevel<2>& level,
+                              const std::vector<int>& allowed_instances);
 
 }  // namespace wingbeat

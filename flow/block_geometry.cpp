@@ -34,7 +34,8 @@ BlockLayout<Dim>::BlockLayout(const Index<Dim>& cells) : extents(cells) {
 }
 
 template <int Dim>
-BlockGeometry<Dim>::BlockGeometry(const LocalBlock<Dim>& block, const Vec<double, 2>& axis) : layout(block.extents) {
+BlockGeometry<Dim>::BlockGeometry(const LocalBlock<Dim>& block, const Vec<double, 2>& axis)
+    : layout(block.extents) {
   const Box<Dim> cells = box_of<Dim>(block.extents);
   volume.assign(cells.size(), 0.0);
   for (int d = 0; d < Dim; ++d) {

@@ -41,8 +41,9 @@ template <int Dim>
 struct BlockGeometry {
   BlockLayout<Dim> layout;
   std::array<std::array<std::vector<double>, Dim>, Dim> normal;  // [direction][component][offset]
-  std::array<std::vector<double>, Dim> moment;  // [direction][offset]: about the axis of rotation, z component
-  std::vector<double> volume;                   // [cell of the block]
+  std::array<std::vector<double>, Dim>
+      moment;                  // [direction][offset]: about the axis of rotation, z component
+  std::vector<double> volume;  // [cell of the block]
 
   // `axis`: a point of the axis of rotation, which is parallel to z.
   BlockGeometry(const LocalBlock<Dim>& block, const Vec<double, 2>& axis);

@@ -30,8 +30,8 @@ struct FarfieldState {
 };
 
 template <int Dim, class T, class G>
-FarfieldState<Dim, T> farfield_state(const State<Dim, T>& interior, const State<Dim, T>& outside, const Vec<G, Dim>& normal,
-                            const G& sweep, double gamma) {
+FarfieldState<Dim, T> farfield_state(const State<Dim, T>& interior, const State<Dim, T>& outside,
+                                     const Vec<G, Dim>& normal, const G& sweep, double gamma) {
   const G area = sqrt(dot(normal, normal));
   const Vec<G, Dim> n = (G(1.0) / area) * normal;
   const G face_speed = sweep / area;

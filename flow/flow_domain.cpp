@@ -75,7 +75,8 @@ FlowBlock<Dim>::FlowBlock(const LocalBlock<Dim>& block, const Vec<double, 2>& ax
       face.outward = patch.side.end == 0 ? -1.0 : 1.0;
       face.first = layout.offset(cell);
       face.face = patch.side.end == 0 ? face.first : face.first + layout.strides[d];
-      const std::ptrdiff_t inner = face.first + (patch.side.end == 0 ? layout.strides[d] : -layout.strides[d]);
+      const std::ptrdiff_t inner =
+          face.first + (patch.side.end == 0 ? layout.strides[d] : -layout.strides[d]);
       face.second = number[static_cast<std::size_t>(inner)] >= 0 ? inner : face.first;
       boundary.push_back(face);
     });

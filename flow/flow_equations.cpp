@@ -56,8 +56,8 @@ std::span<const double> FlowEquations<Dim>::ghosts_of(std::size_t instance) cons
 }
 
 template <int Dim>
-void FlowEquations<Dim>::residual(std::span<const double> w, std::span<const MotionState> motions, double kappa,
-                                  std::span<double> r) {
+void FlowEquations<Dim>::residual(std::span<const double> w, std::span<const MotionState> motions,
+                                  double kappa, std::span<double> r) {
   fetch_ghosts(w);
   const std::size_t count = domain_.state_count();
   for (std::size_t i = 0; i < instance_count(); ++i)
@@ -67,7 +67,8 @@ void FlowEquations<Dim>::residual(std::span<const double> w, std::span<const Mot
 }
 
 template <int Dim>
-void FlowEquations<Dim>::add_time_derivative(double scale, std::span<const double> w, std::span<double> r) const {
+void FlowEquations<Dim>::add_time_derivative(double scale, std::span<const double> w,
+                                             std::span<double> r) const {
   const std::size_t count = domain_.state_count();
   const auto volumes = domain_.volumes();
   for (int row = 0; row < time_.instances(); ++row)
@@ -106,7 +107,8 @@ void FlowEquations<Dim>::linearize_state(std::span<const double> w, std::span<co
 }
 
 template <int Dim>
-void FlowEquations<Dim>::linearize(std::span<const double> w, std::span<const MotionState> motions, double kappa) {
+void FlowEquations<Dim>::linearize(std::span<const double> w, std::span<const MotionState> motions,
+                                   double kappa) {
   linearize_state(w, motions, kappa);
   const std::size_t count = domain_.state_count();
   using D = Dual<double, 3>;

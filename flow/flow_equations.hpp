@@ -50,7 +50,9 @@ class FlowEquations {
   }
   const LoadGradients& load_gradients(std::size_t instance) const { return load_gradients_[instance]; }
   // Loads with their gradients with respect to the same three.
-  const Loads<Dual<double, 3>>& linearized_loads(std::size_t instance) const { return linearized_loads_[instance]; }
+  const Loads<Dual<double, 3>>& linearized_loads(std::size_t instance) const {
+    return linearized_loads_[instance];
+  }
 
   // y = (dR/dw) x and y = (dR/dw)^T x, at the last linearization.
   void apply(std::span<const double> x, std::span<double> y) const;
@@ -74,6 +76,5 @@ class FlowEquations {
   std::vector<Loads<Dual<double, 3>>> linearized_loads_;
   mutable std::vector<double> ghosts_;  // [instance][ghost cell][variable]
 };
-
 
 }  // namespace wingbeat

@@ -1,10 +1,10 @@
 #include "flow/flow_level.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-
-#include <fmt/format.h>
 
 #include "core/io/error.hpp"
 #include "partition/gather_field.hpp"
@@ -49,13 +49,15 @@ void interpolate_zone(const Index<Dim>& coarse, const double* from, const Index<
 }  // namespace
 
 template <int Dim>
-FlowLevel<Dim>::FlowLevel(const Comm& comm, MultiblockMesh<Dim> level_mesh, const FlowModel<Dim, double>& model,
-                          const Vec<double, 2>& axis, const FlowLevelOptions& options)
+FlowLevel<Dim>::FlowLevel(const Comm& comm, MultiblockMesh<Dim> level_mesh,
+                          const FlowModel<Dim, double>& model, const Vec<double, 2>& axis,
+                          const FlowLevelOptions& options)
     : mesh(std::move(level_mesh)),
       partition(partition_mesh<Dim>(mesh, comm.size(), options.partition)),
       local(build_local_mesh<Dim>(mesh, partition, comm.rank())),
       domain(comm, local, axis),
-      subdomain(std::make_shared<const Subdomain>(comm, domain.exchange(), domain.pattern(), options.overlap)),
+      subdomain(
+          std::make_shared<const Subdomain>(comm, domain.exchange(), domain.pattern(), options.overlap)),
       steady(domain, model, TimeSpectral(0)),
       solver(std::make_shared<SchwarzSolver<double>>(comm, subdomain, state_size<Dim>)) {}
 
@@ -93,7 +95,9 @@ template struct FlowLevel<2>;
 template struct FlowLevel<3>;
 template std::string mesh_size_text<2>(const MultiblockMesh<2>&);
 template std::string mesh_size_text<3>(const MultiblockMesh<3>&);
-template std::vector<double> transferred_state<2>(const FlowLevel<2>&, std::span<const double>, const FlowLevel<2>&);
-template std::vector<double> transferred_state<3>(const FlowLevel<3>&, std::span<const double>, const FlowLevel<3>&);
+template std::vector<double> transferred_state<2>(const FlowLevel<2>&, std::span<const double>,
+                                                  const FlowLevel<2>&);
+template std::vector<double> transferred_state<3>(const FlowLevel<3>&, std::span<const double>,
+                                                  const FlowLevel<3>&);
 
 }  // namespace wingbeat

@@ -73,8 +73,9 @@ template <int Dim, class S>
     }
     for (int k = 0; k < 2; ++k) cells.radius[k] = Load<T>::from(state.radius[d].data() + o + (k - 1) * step);
     const auto face = moved_face<Dim, T>(geometry, motion, d, o);
-    const auto flux = jst_flux<Dim, T>(cells, Load<T>::from(state.sensor.data() + o - step),
-                                       Load<T>::from(state.sensor.data() + o), face.normal, face.sweep, jst, freestream);
+    const auto flux =
+        jst_flux<Dim, T>(cells, Load<T>::from(state.sensor.data() + o - step),
+                         Load<T>::from(state.sensor.data() + o), face.normal, face.sweep, jst, freestream);
     for (int v = 0; v < state_size<Dim>; ++v) store(flux[v], state.flux[d][v].data() + o);
   }
 }

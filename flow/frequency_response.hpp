@@ -24,11 +24,11 @@ template <int Dim>
 class FrequencyResponse {
  public:
   // `flow`: one instance, linearized at the steady state, kept alive and linearized there.
-  FrequencyResponse(const FlowEquations<Dim>& flow, std::shared_ptr<SchwarzSolver<std::complex<double>>> solver,
-                    double tolerance = 1e-10);
+  FrequencyResponse(const FlowEquations<Dim>& flow,
+                    std::shared_ptr<SchwarzSolver<std::complex<double>>> solver, double tolerance = 1e-10);
 
   // At frequency kappa on the flow's clock. The factors of a near frequency serve while GMRES stays
-  // short with them, and its solution is the start. Collective. Throws InternalError where the
+  // short with them, and its solution is the start. Collective. Throws SolveFailure where the
   // linear solve fails.
   const HarmonicResponse& at(double kappa);
 

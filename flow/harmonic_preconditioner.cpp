@@ -6,8 +6,8 @@ namespace wingbeat {
 
 using Complex = std::complex<double>;
 
-HarmonicFactors unfactored(const Comm& comm, const std::shared_ptr<const Subdomain>& subdomain, int block_size,
-                           int harmonics) {
+HarmonicFactors unfactored(const Comm& comm, const std::shared_ptr<const Subdomain>& subdomain,
+                           int block_size, int harmonics) {
   HarmonicFactors factors;
   factors.mean = std::make_shared<SchwarzSolver<double>>(comm, subdomain, block_size);
   for (int h = 1; h <= harmonics; ++h)
@@ -37,7 +37,8 @@ void HarmonicPreconditioner<Dim>::factor(const FlowEquations<Dim>& flow, double 
   if (is_due(*factors_.mean)) factors_.mean->factor(mean, std::span<const double>{});
   for (int h = 1; h <= time_.harmonics(); ++h) {
     auto& solver = *factors_.harmonics[static_cast<std::size_t>(h - 1)];
-    if (is_due(solver)) solver.factor(mean, std::span<const Complex>(harmonic_shift(domain_.volumes(), h * kappa)));
+    if (is_due(solver))
+      solver.factor(mean, std::span<const Complex>(harmonic_shift(domain_.volumes(), h * kappa)));
   }
 }
 
@@ -52,19 +53,23 @@ void HarmonicPreconditioner<Dim>::factor_missing(const FlowEquations<Dim>& flow,
 
 template <int Dim>
 bool HarmonicPreconditioner<Dim>::is_factored() const {
-  return factors_.mean->is_factored() && std::all_of(factors_.harmonics.begin(), factors_.harmonics.end(),
-                                                     [](const auto& solver) { return solver->is_factored(); });
+  return factors_.mean->is_factored() &&
+         std::all_of(factors_.harmonics.begin(), factors_.harmonics.end(),
+                     [](const auto& solver) { return solver->is_factored(); });
 }
 
 template <int Dim>
-void HarmonicPreconditioner<Dim>::solve(std::span<const double> x, std::span<double> y, bool transposed) const {
+void HarmonicPreconditioner<Dim>::solve(std::span<const double> x, std::span<double> y,
+                                        bool transposed) const {
   const std::size_t count = domain_.state_count();
   const std::vector<Complex> b = time_.harmonics_of(x);
   std::vector<Complex> solution(b.size());
   std::vector<double> real_b(count), real_x(count);
   for (std::size_t i = 0; i < count; ++i) real_b[i] = b[i].real();
-  if (transposed) factors_.mean->apply_transpose(real_b, real_x);
-  else factors_.mean->apply(real_b, real_x);
+  if (transposed)
+    factors_.mean->apply_transpose(real_b, real_x);
+  else
+    factors_.mean->apply(real_b, real_x);
   std::copy(real_x.begin(), real_x.end(), solution.begin());
 
   std::vector<Complex> rhs(count);
@@ -113,7 +118,8 @@ MultiplicativePreconditioner<Dim>::MultiplicativePreconditioner(const FlowEquati
                                                                 std::shared_ptr<const Subdomain> subdomain)
     : flow_(flow), harmonic_(harmonic) {
   for (std::size_t i = 0; i < flow.instance_count(); ++i)
-    instances_.push_back(std::make_unique<SchwarzSolver<double>>(flow.domain().comm(), subdomain, state_size<Dim>));
+    instances_.push_back(
+        std::make_unique<SchwarzSolver<double>>(flow.domain().comm(), subdomain, state_size<Dim>));
 }
 
 template <int Dim>
@@ -129,8 +135,10 @@ void MultiplicativePreconditioner<Dim>::solve_instances(std::span<const double> 
   for (std::size_t i = 0; i < instances_.size(); ++i) {
     const auto in = x.subspan(i * count, count);
     const auto out = y.subspan(i * count, count);
-    if (transposed) instances_[i]->apply_transpose(in, out);
-    else instances_[i]->apply(in, out);
+    if (transposed)
+      instances_[i]->apply_transpose(in, out);
+    else
+      instances_[i]->apply(in, out);
   }
 }
 
@@ -145,7 +153,8 @@ void MultiplicativePreconditioner<Dim>::apply(std::span<const double> x, std::sp
 }
 
 template <int Dim>
-void MultiplicativePreconditioner<Dim>::apply_transpose(std::span<const double> x, std::span<double> y) const {
+void MultiplicativePreconditioner<Dim>::apply_transpose(std::span<const double> x,
+                                                        std::span<double> y) const {
   std::vector<double> remainder(x.size()), correction(x.size());
   solve_instances(x, y, true);
   flow_.apply_transpose(y, remainder);

@@ -33,7 +33,9 @@ class HarmonicPreconditioner final : public LinearOperator<double> {
   void factor_missing(const FlowEquations<Dim>& flow, double kappa);
   bool is_factored() const;
 
-  std::size_t local_size() const override { return static_cast<std::size_t>(time_.instances()) * domain_.state_count(); }
+  std::size_t local_size() const override {
+    return static_cast<std::size_t>(time_.instances()) * domain_.state_count();
+  }
   void apply(std::span<const double> x, std::span<double> y) const override;
   void apply_transpose(std::span<const double> x, std::span<double> y) const override;
 
@@ -74,8 +76,8 @@ class MultiplicativePreconditioner final : public LinearOperator<double> {
 };
 
 // Factors for N_H harmonics, not yet computed.
-HarmonicFactors unfactored(const Comm& comm, const std::shared_ptr<const Subdomain>& subdomain, int block_size,
-                           int harmonics);
+HarmonicFactors unfactored(const Comm& comm, const std::shared_ptr<const Subdomain>& subdomain,
+                           int block_size, int harmonics);
 
 // kappa Omega i h as the diagonal shift of a factorization.
 std::vector<std::complex<double>> harmonic_shift(std::span<const double> volumes, double frequency);

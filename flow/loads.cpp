@@ -48,8 +48,7 @@ Loads<S> WallLoads<Dim>::evaluate(std::span<const double> w, std::span<const dou
   for (const WallFace& wall : faces_) {
     const auto& geometry = domain_.blocks()[wall.block].geometry;
     const auto moved = moved_face<Dim, S>(geometry, motion, wall.face.direction, wall.face.face);
-    const double moment =
-        geometry.moment[wall.face.direction][static_cast<std::size_t>(wall.face.face)];
+    const double moment = geometry.moment[wall.face.direction][static_cast<std::size_t>(wall.face.face)];
     const double push = wall.face.outward * scale * (wall_pressure_at(wall, w, ghosts) - 1.0);
     loads.force_x += push * moved.normal[0];
     loads.force_y += push * moved.normal[1];
@@ -84,8 +83,7 @@ LoadGradients WallLoads<Dim>::gradients(std::span<const double> w, std::span<con
   for (const WallFace& wall : faces_) {
     const auto& geometry = domain_.blocks()[wall.block].geometry;
     const auto moved = moved_face<Dim, double>(geometry, motion, wall.face.direction, wall.face.face);
-    const double moment =
-        geometry.moment[wall.face.direction][static_cast<std::size_t>(wall.face.face)];
+    const double moment = geometry.moment[wall.face.direction][static_cast<std::size_t>(wall.face.face)];
     const auto by_pressure = wall_pressure(Dual<double, 2>::seed(0.0, 0), Dual<double, 2>::seed(0.0, 1));
     const std::array<double, 3> arms{moved.normal[0], moved.normal[1], -moment};
     for (int which : {0, 1}) {

@@ -28,7 +28,7 @@ struct LoadGradients {
 struct WallFace {
   std::size_t block = 0;
   BoundaryFace face;
-  int first = 0;   // local numbers of the two cells the wall pressure is extrapolated from
+  int first = 0;  // local numbers of the two cells the wall pressure is extrapolated from
   int second = 0;
 };
 
@@ -41,13 +41,15 @@ class WallLoads {
 
   // w, ghosts as in FluxBalance::evaluate. Summed over ranks: collective.
   template <class S>
-  Loads<S> evaluate(std::span<const double> w, std::span<const double> ghosts, const RigidMotion<S>& motion) const;
+  Loads<S> evaluate(std::span<const double> w, std::span<const double> ghosts,
+                    const RigidMotion<S>& motion) const;
   // Collective.
   LoadGradients gradients(std::span<const double> w, std::span<const double> ghosts,
                           const RigidMotion<double>& motion) const;
 
   std::span<const WallFace> faces() const { return faces_; }
-  double wall_pressure_at(const WallFace& face, std::span<const double> w, std::span<const double> ghosts) const;
+  double wall_pressure_at(const WallFace& face, std::span<const double> w,
+                          std::span<const double> ghosts) const;
 
  private:
   State<Dim, double> cell_state(int number, std::span<const double> w, std::span<const double> ghosts) const;

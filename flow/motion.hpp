@@ -48,8 +48,9 @@ inline RigidMotion<double> rigid_motion(const MotionState& m) {
 inline RigidMotion<Dual<double, 3>> seeded_motion(const MotionState& m) {
   using D = Dual<double, 3>;
   const D pitch = D::seed(m.pitch, 0);
-  return {chain(pitch, std::cos(m.pitch), -std::sin(m.pitch)), chain(pitch, std::sin(m.pitch), std::cos(m.pitch)),
-          D::seed(m.pitch_rate, 1), D::seed(m.plunge_rate, 2)};
+  return {chain(pitch, std::cos(m.pitch), -std::sin(m.pitch)),
+          chain(pitch, std::sin(m.pitch), std::cos(m.pitch)), D::seed(m.pitch_rate, 1),
+          D::seed(m.plunge_rate, 2)};
 }
 
 }  // namespace wingbeat

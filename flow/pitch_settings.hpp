@@ -6,11 +6,9 @@
 
 namespace wingbeat {
 
-// [pitch]: the section's prescribed pitch, mean + amplitude sin(theta) about an axis.
+// [pitch]: the pitch of the undeformed section.
 struct PitchSettings {
   double mean_deg = 0.0;
-  double amplitude_deg = 1.0;
-  double reduced_frequency = 0.2;  // omega b / U, on the semichord
   std::array<double, 2> axis{0.25, 0.0};
 
   void describe(SettingSection& keys);

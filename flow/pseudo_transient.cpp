@@ -13,7 +13,8 @@ namespace {
 template <int Dim>
 class ShiftedJacobian final : public LinearOperator<double> {
  public:
-  ShiftedJacobian(const FlowEquations<Dim>& flow, std::span<const double> shift) : flow_(flow), shift_(shift) {}
+  ShiftedJacobian(const FlowEquations<Dim>& flow, std::span<const double> shift)
+      : flow_(flow), shift_(shift) {}
   std::size_t local_size() const override { return flow_.state_count(); }
   void apply(std::span<const double> x, std::span<double> y) const override {
     flow_.apply(x, y);
@@ -38,7 +39,8 @@ template <int Dim>
 PseudoTransientResult pseudo_transient(FlowEquations<Dim>& flow, const MotionState& motion,
                                        SchwarzSolver<double>& solver, std::span<double> w,
                                        const PseudoTransientOptions& options,
-                                       const PseudoTransientObserver& observer, std::span<const double> source) {
+                                       const PseudoTransientObserver& observer,
+                                       std::span<const double> source) {
   const Comm& comm = flow.domain().comm();
   const double gamma = flow.model().freestream.gamma;
   const std::span<const MotionState> motions(&motion, 1);
@@ -63,7 +65,9 @@ PseudoTransientResult pseudo_transient(FlowEquations<Dim>& flow, const MotionSta
     scale *= result.residual;
     result.residual = 1.0;
   }
-  const auto cfl_target = [&] { return options.cfl_initial * std::pow(result.residual, -options.cfl_growth); };
+  const auto cfl_target = [&] {
+    return options.cfl_initial * std::pow(result.residual, -options.cfl_growth);
+  };
   double cfl = cfl_target();
   bool refactor = true;
   PseudoTransientIteration report{0, result.residual, cfl, 0.0, 0, false};
@@ -71,7 +75,8 @@ PseudoTransientResult pseudo_transient(FlowEquations<Dim>& flow, const MotionSta
     if (observer && comm.any(!observer(report))) return result.status = SolveStatus::interrupted, result;
     if (!std::isfinite(result.residual)) return result.status = SolveStatus::diverged, result;
     if (result.residual <= options.tolerance) return result.status = SolveStatus::converged, result;
-    if (result.iterations == options.max_iterations) return result.status = SolveStatus::iteration_limit, result;
+    if (result.iterations == options.max_iterations)
+      return result.status = SolveStatus::iteration_limit, result;
 
     flow.linearize_state(w, motions, 0.0);
     shift = spectral_radius_sums<Dim>(flow.domain(), w, motion, gamma);
@@ -118,11 +123,13 @@ PseudoTransientResult pseudo_transient(FlowEquations<Dim>& flow, const MotionSta
   }
 }
 
-template PseudoTransientResult pseudo_transient<2>(FlowEquations<2>&, const MotionState&, SchwarzSolver<double>&,
-                                                   std::span<double>, const PseudoTransientOptions&,
+template PseudoTransientResult pseudo_transient<2>(FlowEquations<2>&, const MotionState&,
+                                                   SchwarzSolver<double>&, std::span<double>,
+                                                   const PseudoTransientOptions&,
                                                    const PseudoTransientObserver&, std::span<const double>);
-template PseudoTransientResult pseudo_transient<3>(FlowEquations<3>&, const MotionState&, SchwarzSolver<double>&,
-                                                   std::span<double>, const PseudoTransientOptions&,
+template PseudoTransientResult pseudo_transient<3>(FlowEquations<3>&, const MotionState&,
+                                                   SchwarzSolver<double>&, std::span<double>,
+                                                   const PseudoTransientOptions&,
                                                    const PseudoTransientObserver&, std::span<const double>);
 
 }  // namespace wingbeat

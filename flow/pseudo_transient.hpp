@@ -15,9 +15,9 @@ struct PseudoTransientOptions {
   double tolerance = 1e-12;  // on |R| relative to that of uniform flow
   int max_iterations = 200;
   double cfl_initial = 10.0;
-  double cfl_growth = 1.5;     // CFL = initial / |R|^growth, R relative to uniform flow
-  double step_limit = 0.25;    // largest relative change of density and pressure in a step
-  double forcing = 1e-2;       // linear tolerance
+  double cfl_growth = 1.5;   // CFL = initial / |R|^growth, R relative to uniform flow
+  double step_limit = 0.25;  // largest relative change of density and pressure in a step
+  double forcing = 1e-2;     // linear tolerance
   int refactor_iterations = 20;
   GmresOptions gmres{};
 };

@@ -17,8 +17,8 @@ std::vector<double> spectral_radius_sums(const FlowDomain<Dim>& domain, std::spa
       State<Dim, double> cell;
       for (int v = 0; v < n; ++v) cell[v] = w[sums.size() * n + static_cast<std::size_t>(v)];
       const auto faces = mean_faces<Dim, double>(block.geometry, moved, block.geometry.layout.offset(index));
-      const auto radii =
-          spectral_radii<Dim, double, double>(cell, pressure<Dim, double>(cell, gamma), faces.normals, faces.sweeps, gamma);
+      const auto radii = spectral_radii<Dim, double, double>(cell, pressure<Dim, double>(cell, gamma),
+                                                             faces.normals, faces.sweeps, gamma);
       double sum = 0.0;
       for (int d = 0; d < Dim; ++d) sum += radii[d];
       sums.push_back(sum);

@@ -8,27 +8,30 @@ template <int Dim>
 PseudoTransientResult solve_steady(FlowLevels<Dim>& levels, const MotionState& motion,
                                    const PseudoTransientOptions& options, const SequenceObserver& observer) {
   constexpr double coarse_tolerance = 1e-6;
-  const std::size_t finest = levels.size() - 1;
-  const std::size_t first = levels[finest]->w.empty() ? 0 : finest;
+  const FlowLevel<Dim>* coarser = nullptr;  // the last that was solved
   PseudoTransientResult result;
-  for (std::size_t l = first; l <= finest; ++l) {
+  for (std::size_t l = 0; l < levels.size(); ++l) {
     FlowLevel<Dim>& level = *levels[l];
+    const bool is_finest = l + 1 == levels.size();
     if (level.w.empty())
-      level.w = l == 0 ? level.steady.uniform_state() : transferred_state<Dim>(*levels[l - 1], levels[l - 1]->w, level);
+      level.w = coarser ? transferred_state<Dim>(*coarser, coarser->w, level) : level.steady.uniform_state();
     PseudoTransientOptions level_options = options;
-    if (l < finest) level_options.tolerance = std::max(options.tolerance, coarse_tolerance);
-    result = pseudo_transient<Dim>(level.steady, motion, *level.solver, level.w, level_options,
-                                   [&](const PseudoTransientIteration& i) { return !observer || observer(l, i); });
+    if (!is_finest) level_options.tolerance = std::max(options.tolerance, coarse_tolerance);
+    result =
+        pseudo_transient<Dim>(level.steady, motion, *level.solver, level.w, level_options,
+                              [&](const PseudoTransientIteration& i) { return !observer || observer(l, i); });
     if (result.status == SolveStatus::interrupted) break;
-    // A coarse solution that went astray is no better a start than uniform flow.
-    if (l < finest && result.status != SolveStatus::converged) level.w = level.steady.uniform_state();
+    if (result.status == SolveStatus::converged)
+      coarser = &level;
+    else if (!is_finest)
+      level.w.clear();
   }
   return result;
 }
 
-template PseudoTransientResult solve_steady<2>(FlowLevels<2>&, const MotionState&, const PseudoTransientOptions&,
-                                               const SequenceObserver&);
-template PseudoTransientResult solve_steady<3>(FlowLevels<3>&, const MotionState&, const PseudoTransientOptions&,
-                                               const SequenceObserver&);
+template PseudoTransientResult solve_steady<2>(FlowLevels<2>&, const MotionState&,
+                                               const PseudoTransientOptions&, const SequenceObserver&);
+template PseudoTransientResult solve_steady<3>(FlowLevels<3>&, const MotionState&,
+                                               const PseudoTransientOptions&, const SequenceObserver&);
 
 }  // namespace wingbeat

@@ -16,13 +16,13 @@ using FlowLevels = std::vector<std::unique_ptr<FlowLevel<Dim>>>;
 // Return false to stop early. `level` counts from the coarsest, 0.
 using SequenceObserver = std::function<bool(std::size_t level, const PseudoTransientIteration&)>;
 
-// Steady flow by grid sequencing: each mesh starts from the solution of the coarser one, the first
-// from uniform flow, or all from `levels.back()->w` alone where that is given already. Coarse
-// meshes are solved to 1e-6 or the tolerance, whichever is larger. Leaves every level's w and factors.
-// The result is that of the finest mesh; a coarse mesh that does not converge is skipped.
-// Collective.
+// Steady flow by grid sequencing: each mesh starts from its w where that is given already, else from
+// the solution of the last coarser one that converged, else from uniform flow. Coarse meshes are
+// solved to 1e-6 or the tolerance, whichever is larger; one that does not converge is left without w.
+// Leaves every solved level's w and factors. The result is that of the finest mesh. Collective.
 template <int Dim>
 PseudoTransientResult solve_steady(FlowLevels<Dim>& levels, const MotionState& motion,
-                                   const PseudoTransientOptions& options, const SequenceObserver& observer = {});
+                                   const PseudoTransientOptions& options,
+                                   const SequenceObserver& observer = {});
 
 }  // namespace wingbeat

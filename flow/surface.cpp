@@ -26,7 +26,8 @@ std::vector<SurfacePoint> unpacked(const std::vector<double>& packed) {
   std::vector<SurfacePoint> points;
   for (std::size_t i = 0; i + record <= packed.size(); i += record) {
     const double* p = packed.data() + i;
-    points.push_back({std::lround(p[0]), static_cast<int>(p[1]), {{{p[2], p[3]}}}, {{{p[4], p[5]}}}, p[6], p[7]});
+    points.push_back(
+        {std::lround(p[0]), static_cast<int>(p[1]), {{{p[2], p[3]}}}, {{{p[4], p[5]}}}, p[6], p[7]});
   }
   std::stable_sort(points.begin(), points.end(),
                    [](const SurfacePoint& a, const SurfacePoint& b) { return a.cell < b.cell; });

@@ -15,7 +15,8 @@ struct SectionPosition {
 
 // A point of the mesh at rest, carried to the section's position (eq:rigid-motion).
 template <int Dim>
-Vec<double, Dim> carried(const Vec<double, Dim>& at_rest, const Vec<double, 2>& axis, const SectionPosition& position);
+Vec<double, Dim> carried(const Vec<double, Dim>& at_rest, const Vec<double, 2>& axis,
+                         const SectionPosition& position);
 
 // One wall face of one instance.
 struct SurfacePoint {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/io/error.hpp"
 #include "structure/harmonic_motion.hpp"
 #include "structure/typical_section.hpp"
 
@@ -54,18 +53,23 @@ bool is_deflected(const Loads<double>& loads) {
 
 template <int Dim>
 LinearizedSection<Dim>::LinearizedSection(FlowLevel<Dim>& level, const SectionKinematics& kinematics,
-                                          AeroelasticState rest, double tolerance)
+                                          AeroelasticState rest, double tolerance,
+                                          std::function<bool()> is_stopped)
     : kinematics_(kinematics),
       rest_(std::move(rest)),
       solver_(std::make_shared<SchwarzSolver<std::complex<double>>>(level.comm(), level.subdomain,
                                                                     state_size<Dim>)),
-      response_(level.steady, solver_, tolerance) {
+      response_(level.steady, solver_, tolerance),
+      is_stopped_(std::move(is_stopped)) {
   const std::vector<MotionState> motion{kinematics_.motion(rest_.y, rest_.r)};
   level.steady.linearize(rest_.w, motion, 0.0);
 }
 
 template <int Dim>
 Eigen::MatrixXcd LinearizedSection<Dim>::aerodynamic_matrix(double k) {
+  if (is_stopped_ && is_stopped_())
+    throw SolveFailure(SolveStatus::interrupted,
+                       "stopped by a signal or --walltime during the linearized problem");
   const HarmonicResponse response = response_.at(kappa(k));
   constexpr double b = SectionKinematics::semichord;
   Eigen::MatrixXcd q(2, 2);
@@ -107,9 +111,12 @@ AeroelasticState static_equilibrium(FlowLevel<Dim>& level, const StructureModel&
                                   std::nullopt, start, {level.solver, {}}, options.tolerances);
   std::vector<double> u = problem.unknowns(start);
   const NewtonResult result = newton(level.comm(), problem, u, options.newton);
-  ensure(result.status == SolveStatus::converged,
-         fmt::format("static equilibrium at V = {}: Newton ended with {}", reduced_velocity,
-                     to_string(result.status)));
+  if (result.status != SolveStatus::converged)
+    throw SolveFailure(
+        result.status,
+        fmt::format("static equilibrium of the section at V = {:.4g} was not found: Newton ended with "
+                    "{}; the section may diverge there, or solver.max_newton_iterations is too low",
+                    reduced_velocity, to_string(result.status)));
   return problem.state(u);
 }
 
@@ -130,12 +137,15 @@ LinearFlutterSolution<Dim> solve_linear_flutter(FlowLevels<Dim>& levels, const S
   std::optional<AerodynamicTable> table;
   std::optional<double> speed;  // at which the section rests, once a root is known
 
+  std::vector<FlowLevel<Dim>*> solved;
   for (const auto& level : levels)
+    if (!level->w.empty()) solved.push_back(level.get());
+  for (FlowLevel<Dim>* level : solved)
     for (int repeat = 0; repeat < max_equilibria; ++repeat) {
       solution.section = std::make_unique<LinearizedSection<Dim>>(
           *level, kinematics, section_at_rest<Dim>(*level, model, kinematics, speed, options),
           options.tolerance);
-      if (level == levels.front()) {
+      if (level == solved.front()) {
         table = sampled_matrix<Dim>(*solution.section, options);
         solution.flutter.roots = scan_flutter_roots(model, *table);
       } else {
@@ -148,7 +158,7 @@ LinearFlutterSolution<Dim> solve_linear_flutter(FlowLevels<Dim>& levels, const S
       if (deflects) speed = found;
       if (!deflects || is_settled) break;
     }
-  if (levels.size() == 1)
+  if (solved.size() == 1)
     polish_lowest(model, *solution.section, *table, 10.0 * options.tolerance, solution.flutter.roots);
   solution.flutter.root = *lowest_destabilising(solution.flutter.roots);
   return solution;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -18,9 +19,10 @@ namespace wingbeat {
 template <int Dim>
 class LinearizedSection {
  public:
-  // `rest`: one instance w, y of the section at rest. Collective.
+  // `rest`: one instance w, y of the section at rest. `is_stopped` is polled before every Q(k), which
+  // then throws SolveFailure(interrupted). Collective.
   LinearizedSection(FlowLevel<Dim>& level, const SectionKinematics& kinematics, AeroelasticState rest,
-                    double tolerance);
+                    double tolerance, std::function<bool()> is_stopped = {});
 
   const AeroelasticState& rest() const { return rest_; }
   // f = Q (h/b, alpha), f = (-C_l, 2 C_m). Collective.
@@ -39,6 +41,7 @@ class LinearizedSection {
   AeroelasticState rest_;
   std::shared_ptr<SchwarzSolver<std::complex<double>>> solver_;
   FrequencyResponse<Dim> response_;
+  std::function<bool()> is_stopped_;
 };
 
 struct LinearFlutterOptions {
@@ -47,6 +50,7 @@ struct LinearFlutterOptions {
   double tolerance = 1e-8;  // of the linear solves behind Q
   NewtonOptions newton{};   // of static equilibrium
   AeroelasticTolerances tolerances{};
+  std::function<bool()> is_stopped{};  // collective; polled between linear solves
 };
 
 struct LinearFlutter {
@@ -58,7 +62,7 @@ struct LinearFlutter {
 bool is_deflected(const Loads<double>& loads);
 
 // Static aeroelastic equilibrium at reduced velocity V: w, y with R = S = 0, started from the
-// level's steady state and `y`. Throws InternalError where Newton's method fails. Collective.
+// level's steady state and `y`. Throws SolveFailure where Newton's method fails. Collective.
 template <int Dim>
 AeroelasticState static_equilibrium(FlowLevel<Dim>& level, const StructureModel& model,
                                     const SectionKinematics& kinematics, double reduced_velocity,

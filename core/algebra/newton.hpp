@@ -2,6 +2,8 @@
 
 #include <functional>
 #include <span>
+#include <stdexcept>
+#include <string>
 #include <string_view>
 
 #include "core/algebra/gmres.hpp"
@@ -43,6 +45,18 @@ struct NewtonOptions {
 
 enum class SolveStatus { converged, stalled, iteration_limit, diverged, interrupted };
 std::string_view to_string(SolveStatus status);
+
+// A solution that a larger computation cannot go on without was not reached: thrown on all ranks.
+// Not a fault of the program: the run ends as not converged, or as interrupted.
+class SolveFailure : public std::runtime_error {
+ public:
+  SolveFailure(SolveStatus status, const std::string& message)
+      : std::runtime_error(message), status_(status) {}
+  SolveStatus status() const { return status_; }
+
+ private:
+  SolveStatus status_;
+};
 
 // What an observer is shown after every iteration (iteration 0 is the start).
 struct NewtonIteration {

@@ -66,7 +66,8 @@ std::vector<double> dual_tangent(const FlowCase<Dim>& c, const TimeSpectral& tim
   constexpr int n = state_size<Dim>;
   const auto& f = c.model.freestream;
   FluxBalance<Dim, D> balance(c.domain, {{f.gamma, f.mach, f.angle_cosine, f.angle_sine}, c.model.jst});
-  const std::size_t count = c.domain.state_count(), ghost_count = static_cast<std::size_t>(c.domain.ghost_count()) * n;
+  const std::size_t count = c.domain.state_count(),
+                    ghost_count = static_cast<std::size_t>(c.domain.ghost_count()) * n;
   std::vector<double> ghosts(ghost_count * time.instances()), ghost_tangents(ghosts.size());
   c.domain.exchange().template gather<double>(w, ghosts, time.instances(), n);
   c.domain.exchange().template gather<double>(dw, ghost_tangents, time.instances(), n);
@@ -113,7 +114,8 @@ void expect_exact_jacobian(MultiblockMesh<Dim> mesh, double smoothing) {
   flow.residual(plus, motions, kappa, r_plus);
   flow.residual(minus, motions, kappa, r_minus);
   if (smoothing > 0.0) {
-    for (std::size_t i = 0; i < w.size(); ++i) difference[i] = (r_plus[i] - r_minus[i]) / (2 * h) - tangent[i];
+    for (std::size_t i = 0; i < w.size(); ++i)
+      difference[i] = (r_plus[i] - r_minus[i]) / (2 * h) - tangent[i];
     EXPECT_LE(global_norm(c.comm, difference), 1e-6 * size);
   }
 

@@ -60,7 +60,8 @@ TEST_F(Flutter, IsTheSameOnAnyRanksAndBlocks) {
   expect_converged(reference["flutter"]);
   for (int ranks : {3, 4}) expect_same_point(reference, flutter("naca64a010", ranks, coarse));
   for (int blocks : {2, 5})
-    expect_same_point(reference, flutter("naca64a010", 2, {coarse[0], "mesh.blocks=" + std::to_string(blocks)}));
+    expect_same_point(reference,
+                      flutter("naca64a010", 2, {coarse[0], "mesh.blocks=" + std::to_string(blocks)}));
 }
 
 TEST_F(Flutter, OfALiftingSectionIsAboutItsEquilibrium) {
