@@ -105,20 +105,5 @@ TEST(SteadyFlow, AgreesWithAnIndependentCodeOnGeneratedMeshes) {
                             peer);
 }
 
-// The meshes the peer ran on, as Plot3D: NAME_256x64.x in the folder WINGBEAT_REFERENCE_MESHES.
-TEST(SteadyFlow, AgreesWithAnIndependentCodeOnItsOwnMeshes) {
-  const char* folder = std::getenv("WINGBEAT_REFERENCE_MESHES");
-  if (folder == nullptr) GTEST_SKIP() << "set WINGBEAT_REFERENCE_MESHES to the folder of the Plot3D meshes";
-  for (const Peer& peer : {adflow_lifting, adflow_symmetric}) {
-    const Section& s = peer.section;
-    auto mesh = read_plot3d(std::filesystem::path(folder) / (std::string(s.name) + "_256x64.x"));
-    const auto given = solve_classical(s, std::get<MultiblockMesh<2>>(std::move(mesh)));
-    const auto generated = solve_classical(s, section_mesh(s.name, 256, 64, 1, 60.0));
-    expect_within_a_percent(given, peer);
-    EXPECT_NEAR(given.lift, generated.lift, 0.002 * std::abs(generated.lift) + 1e-8);
-    EXPECT_NEAR(given.drag, generated.drag, 0.002 * generated.drag);
-  }
-}
-
 }  // namespace
 }  // namespace wingbeat
