@@ -74,11 +74,13 @@ TEST(Newton, FindsTheRootsAndReportsEveryIteration) {
   Scalars problem = cubes(6);
   std::vector<double> u(6, 2.0);
   std::vector<double> norms;
-  const auto result = newton(comm, problem, u, {}, [&](const NewtonIteration& line, std::span<const double>) {
-    EXPECT_EQ(line.iteration, static_cast<int>(norms.size()));
-    norms.push_back(line.residual_norm);
-    return true;
-  });
+  const auto result =
+      newton(comm, problem, u, {},
+             [&](const NewtonIteration& line, std::span<const double>, std::span<const double>) {
+               EXPECT_EQ(line.iteration, static_cast<int>(norms.size()));
+               norms.push_back(line.residual_norm);
+               return true;
+             });
   EXPECT_EQ(result.status, SolveStatus::converged);
   EXPECT_EQ(result.iterations + 1, static_cast<int>(norms.size()));
   EXPECT_EQ(result.residual_norm, norms.back());
@@ -182,9 +184,11 @@ TEST(Newton, AnObserverOnOneRankInterruptsAll) {
   const Comm comm;
   Scalars problem = cubes(6);
   std::vector<double> u(6, 2.0);
-  const auto result = newton(comm, problem, u, {}, [&](const NewtonIteration& line, std::span<const double>) {
-    return !(comm.is_root() && line.iteration == 1);
-  });
+  const auto result =
+      newton(comm, problem, u, {},
+             [&](const NewtonIteration& line, std::span<const double>, std::span<const double>) {
+               return !(comm.is_root() && line.iteration == 1);
+             });
   EXPECT_EQ(result.status, SolveStatus::interrupted);
   EXPECT_EQ(result.iterations, 1);
 }
