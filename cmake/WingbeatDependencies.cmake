@@ -1,5 +1,4 @@
-# Debian 12 packages. Ipopt is linked as plain -lipopt after MPI: its pkg-config file
-# names the sequential MUMPS, whose fake MPI_* symbols shadow the real ones.
+# Debian 12 packages.
 find_package(MPI REQUIRED COMPONENTS CXX)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(fmt REQUIRED)
