@@ -18,7 +18,7 @@ template <int Dim>
 FlowModel<Dim, double> flow_model(const FlowSettings& settings) {
   const double angle = radians(settings.angle_of_attack_deg);
   return {{settings.gamma, settings.mach, std::cos(angle), std::sin(angle)},
-          {settings.jst_k2, settings.jst_k4, settings.jst_smoothing}};
+          JstScheme{settings.jst_k2, settings.jst_k4, settings.jst_smoothing}};
 }
 
 TypicalSection typical_section(const StructureSettings& settings) {

@@ -4,7 +4,7 @@
 
 #include "flow/cell_quantities.hpp"
 #include "flow/moved_face.hpp"
-#include "flow/scheme/jst.hpp"
+#include "flow/scheme/scheme.hpp"
 
 namespace wingbeat::benchmarks {
 namespace {
@@ -55,7 +55,7 @@ OperationCount residual_operations() {
   using T = Counted;
   OperationCount count;
   const T one(1.0, &count);
-  const JstCoefficients jst;
+  const JstScheme jst;
   const double gamma = 1.4;
   const RigidMotion<T> motion{one, one, one, one};
   State<Dim, T> w;
@@ -76,10 +76,9 @@ OperationCount residual_operations() {
   }
   const auto radii = scaled_radii(spectral_radii<Dim, T, T>(w, p, normals, sweeps, gamma));
   for (int d = 0; d < Dim; ++d) {
-    const T sensor = pressure_sensor(p, p, p, jst);
     const FaceStencil<Dim, T> stencil{{{w, w, w, w}}, {{p, p, p, p}}, {{radii[d], radii[d]}}};
     const auto face = moved(rest, motion);
-    const auto flux = jst_flux<Dim, T>(stencil, sensor, sensor, face.normal, face.sweep, jst);
+    const auto flux = numerical_flux<Dim, T>(jst, stencil, face, gamma);
     // Each cell takes one difference of the fluxes a direction and adds it up.
     for (int v = 0; v < state_size<Dim>; ++v) static_cast<void>(one + (flux[v] - flux[v]));
   }
@@ -91,10 +90,9 @@ double residual_values() {
   constexpr int n = state_size<Dim>, face = Dim + 1;
   constexpr int loading = 2 * n + n + 1;
   constexpr int radii = n + 1 + Dim * face + Dim;
-  constexpr int sensor = 1 + 1;
   constexpr int fluxes = n + 1 + 1 + 1 + face + n;
   constexpr int differences = Dim * n + n;
-  return loading + radii + Dim * (sensor + fluxes) + differences;
+  return loading + radii + Dim * fluxes + differences;
 }
 
 template OperationCount residual_operations<2>();

@@ -9,7 +9,7 @@ namespace {
 template <int Dim>
 FlowModel<Dim, Dual<double, 3>> lifted(const FlowModel<Dim, double>& model) {
   const auto& f = model.freestream;
-  return {{f.gamma, f.mach, f.angle_cosine, f.angle_sine}, model.jst};
+  return {{f.gamma, f.mach, f.angle_cosine, f.angle_sine}, model.scheme};
 }
 
 }  // namespace
@@ -21,8 +21,6 @@ FlowEquations<Dim>::FlowEquations(const FlowDomain<Dim>& domain, const FlowModel
       model_(model),
       time_(time),
       balance_(domain, model),
-      motion_balance_(domain, lifted(model)),
-      assembler_(domain, model),
       walls_(domain, model),
       ghosts_(instance_count() * static_cast<std::size_t>(domain.ghost_count()) * n) {}
 
@@ -67,6 +65,17 @@ void FlowEquations<Dim>::residual(std::span<const double> w, std::span<const Mot
 }
 
 template <int Dim>
+void FlowEquations<Dim>::balance_parts(std::span<const double> w, std::span<const MotionState> motions,
+                                       std::span<double> central, std::span<double> dissipation) {
+  fetch_ghosts(w);
+  const std::size_t count = domain_.state_count();
+  for (std::size_t i = 0; i < instance_count(); ++i)
+    balance_.evaluate_parts(w.subspan(i * count, count), ghosts_of(i), rigid_motion(motions[i]),
+                            central.subspan(i * count, count),
+                            dissipation.empty() ? dissipation : dissipation.subspan(i * count, count));
+}
+
+template <int Dim>
 void FlowEquations<Dim>::add_time_derivative(double scale, std::span<const double> w,
                                              std::span<double> r) const {
   const std::size_t count = domain_.state_count();
@@ -101,9 +110,10 @@ void FlowEquations<Dim>::linearize_state(std::span<const double> w, std::span<co
   fetch_ghosts(w);
   kappa_ = kappa;
   const std::size_t count = domain_.state_count();
+  if (!assembler_) assembler_.emplace(domain_, model_);
   jacobians_.resize(instance_count(), BlockSparse<n>(domain_.pattern()));
   for (std::size_t i = 0; i < instance_count(); ++i)
-    assembler_.assemble(w.subspan(i * count, count), ghosts_of(i), rigid_motion(motions[i]), jacobians_[i]);
+    assembler_->assemble(w.subspan(i * count, count), ghosts_of(i), rigid_motion(motions[i]), jacobians_[i]);
 }
 
 template <int Dim>
@@ -112,6 +122,7 @@ void FlowEquations<Dim>::linearize(std::span<const double> w, std::span<const Mo
   linearize_state(w, motions, kappa);
   const std::size_t count = domain_.state_count();
   using D = Dual<double, 3>;
+  if (!motion_balance_) motion_balance_.emplace(domain_, lifted(model_));
   std::vector<D> state(count), ghosts(ghosts_of(0).size()), balance(count);
   motion_gradients_.resize(instance_count());
   load_gradients_.resize(instance_count());
@@ -123,7 +134,7 @@ void FlowEquations<Dim>::linearize(std::span<const double> w, std::span<const Mo
     linearized_loads_[i] = walls_.evaluate(instance, ghosts_of(i), seeded);
     std::copy(instance.begin(), instance.end(), state.begin());
     std::copy(ghosts_of(i).begin(), ghosts_of(i).end(), ghosts.begin());
-    motion_balance_.evaluate(state, ghosts, seeded, balance);
+    motion_balance_->evaluate(state, ghosts, seeded, balance);
     for (int k = 0; k < 3; ++k) {
       auto& column = motion_gradients_[i][static_cast<std::size_t>(k)];
       column.resize(count);

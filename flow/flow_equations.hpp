@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/spectral/time_spectral.hpp"
@@ -34,6 +35,10 @@ class FlowEquations {
   // The following are collective. One motion an instance; kappa is the frequency on the flow's clock.
   void residual(std::span<const double> w, std::span<const MotionState> motions, double kappa,
                 std::span<double> r);
+  // The two parts of R less its time derivative, R = central - dissipation. An empty `dissipation` is
+  // not computed.
+  void balance_parts(std::span<const double> w, std::span<const MotionState> motions,
+                     std::span<double> central, std::span<double> dissipation);
   // sum_m D_nm Omega w_m: the derivative of R with respect to kappa alone.
   void add_time_derivative(double scale, std::span<const double> w, std::span<double> r) const;
   std::vector<Loads<double>> loads(std::span<const double> w, std::span<const MotionState> motions);
@@ -66,8 +71,9 @@ class FlowEquations {
   FlowModel<Dim, double> model_;
   TimeSpectral time_;
   FluxBalance<Dim, double> balance_;
-  FluxBalance<Dim, Dual<double, 3>> motion_balance_;
-  FlowJacobian<Dim> assembler_;
+  // Made at the first linearization: what only evaluates residuals does not pay for them.
+  std::optional<FluxBalance<Dim, Dual<double, 3>>> motion_balance_;
+  std::optional<FlowJacobian<Dim>> assembler_;
   WallLoads<Dim> walls_;
   double kappa_ = 0.0;
   std::vector<BlockSparse<n>> jacobians_;

@@ -15,55 +15,99 @@ struct FaceGradients {
   static constexpr int n = state_size<Dim>;
   using Lane = std::array<double, lanes<Pack>>;
 
-  std::array<std::array<std::array<Lane, n>, n>, 2> convection;  // [cell 1 or 2][row][state variable]
-  std::array<Lane, 4> diffusion;                                 // [cell]: of row v by variable v
-  std::array<std::array<Lane, n>, 4> pressure;                   // [cell][row]
-  std::array<std::array<Lane, n>, 2> radius;                     // [cell 1 or 2][row]
+  std::array<std::array<std::array<Lane, n>, n>, 4> state;  // [cell][row][state variable]
+  std::array<std::array<Lane, n>, 4> pressure;              // [cell][row]
+  std::array<std::array<Lane, n>, 2> radius;                // [cell 1 or 2][row]
 };
 
-template <int Dim>
-void differentiate_faces(const BlockGeometry<Dim>& geometry, const BlockState<Dim, double>& state,
-                         const RigidMotion<Pack>& motion, int d, std::ptrdiff_t o, const JstCoefficients& jst,
-                         FaceGradients<Dim>& gradients) {
+// Of -d, the dissipation of any scheme: one cell's state and pressure are seeded at a time.
+template <int Dim, class SchemeType>
+void differentiate_dissipation(const SchemeType& scheme, const FaceStencil<Dim, Pack>& cells,
+                               const MovedFace<Dim, Pack>& face, const UniformFlow<Dim, Pack>& freestream,
+                               double gamma, FaceGradients<Dim>& gradients) {
   constexpr int n = state_size<Dim>;
-  const std::ptrdiff_t step = geometry.layout.strides[d];
-  const auto face = moved_face<Dim, Pack>(geometry, motion, d, o);
-
-  // Dissipation: seeds 0..3 on the pressures, 4 and 5 on the radii; linear in the states.
-  using D = Dual<Pack, 6>;
-  FaceStencil<Dim, Pack, D> cells;
-  for (int k = 0; k < 4; ++k) {
-    const std::ptrdiff_t cell = o + (k - 2) * step;
-    cells.w[k] = load_state<Dim, Pack>(state, cell);
-    cells.p[k] = D::seed(Load<Pack>::from(state.p.data() + cell), k);
+  const auto dissipation_with = [&]<int Seeds>(auto&& seed) {
+    using D = Dual<Pack, Seeds>;
+    const auto lifted = [](const auto& values) {
+      Vec<D, std::remove_cvref_t<decltype(values)>::size()> result;
+      for (int i = 0; i < result.size(); ++i) result[i] = values[i];
+      return result;
+    };
+    FaceStencil<Dim, D> seeded;
+    for (int k = 0; k < 4; ++k) seeded.w[k] = lifted(cells.w[k]);
+    seeded.p = lifted(cells.p);
+    seeded.radius = lifted(cells.radius);
+    seed(seeded);
+    return scheme.dissipation(seeded, MovedFace<Dim, D>{lifted(face.normal), face.sweep},
+                              UniformFlow<Dim, D>{lifted(freestream.w), lifted(freestream.u), freestream.p},
+                              gamma);
+  };
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto d = dissipation_with.template operator()<n + 1>([&](auto& seeded) {
+      const auto cell = static_cast<int>(k);
+      for (int v = 0; v < n; ++v) seeded.w[cell][v].gradient[v] = Pack(1.0);
+      seeded.p[cell].gradient[n] = Pack(1.0);
+    });
+    for (int row = 0; row < n; ++row) {
+      for (int v = 0; v < n; ++v) store(-d[row].gradient[v], gradients.state[k][row][v].data());
+      store(-d[row].gradient[n], gradients.pressure[k][row].data());
+    }
   }
-  for (int k = 0; k < 2; ++k)
-    cells.radius[k] = D::seed(Load<Pack>::from(state.radius[d].data() + o + (k - 1) * step), 4 + k);
-  const auto weights =
-      jst_weights(pressure_sensor(cells.p[0], cells.p[1], cells.p[2], jst),
-                  pressure_sensor(cells.p[1], cells.p[2], cells.p[3], jst), cells.radius, jst);
-  const auto dissipation = jst_dissipation<Dim>(cells, weights);
+  if constexpr (SchemeType::uses_radii) {
+    const auto d = dissipation_with.template operator()<2>([&](auto& seeded) {
+      for (int side = 0; side < 2; ++side) seeded.radius[side].gradient[side] = Pack(1.0);
+    });
+    for (int row = 0; row < n; ++row)
+      for (std::size_t side = 0; side < 2; ++side)
+        store(-d[row].gradient[static_cast<int>(side)], gradients.radius[side][row].data());
+  }
+}
+
+// The scalar scheme is linear in the states at given weights: one evaluation does, with seeds 0..3
+// on the pressures, 4 and 5 on the radii.
+template <int Dim>
+void differentiate_dissipation(const JstScheme& jst, const FaceStencil<Dim, Pack>& cells,
+                               const MovedFace<Dim, Pack>& /*face*/, const UniformFlow<Dim, Pack>& /*uniform*/,
+                               double /*gamma*/, FaceGradients<Dim>& gradients) {
+  constexpr int n = state_size<Dim>;
+  using D = Dual<Pack, 6>;
+  FaceStencil<Dim, Pack, D> seeded;
+  seeded.w = cells.w;
+  for (int k = 0; k < 4; ++k) seeded.p[k] = D::seed(cells.p[k], k);
+  for (int k = 0; k < 2; ++k) seeded.radius[k] = D::seed(cells.radius[k], 4 + k);
+  const auto weights = jst_weights(seeded, jst);
+  const auto dissipation = jst_dissipation<Dim>(seeded, weights);
   for (std::size_t k = 0; k < 4; ++k) {
     const Pack weight =
         first_difference[k] * weights.second.value - third_difference[k] * weights.fourth.value;
-    store(-weight, gradients.diffusion[k].data());
-    for (int row = 0; row < n; ++row)
-      store(-dissipation[row].gradient[static_cast<int>(k)], gradients.pressure[k][row].data());
-  }
-
-  // Convection: half of each side's flux, a function of that side's state and pressure.
-  using C = Dual<Pack, n + 1>;
-  for (std::size_t side = 0; side < 2; ++side) {
-    State<Dim, C> w;
-    for (int v = 0; v < n; ++v) w[v] = C::seed(cells.w[1 + static_cast<int>(side)][v], v);
-    const C p = C::seed(cells.p[1 + static_cast<int>(side)].value, n);
-    const auto flux = euler_flux<Dim>(w, p, face.normal, face.sweep);
     for (int row = 0; row < n; ++row) {
-      for (int v = 0; v < n; ++v)
-        store(0.5 * flux[row].gradient[v], gradients.convection[side][row][v].data());
-      auto& by_pressure = gradients.pressure[1 + side][row];
-      store(Load<Pack>::from(by_pressure.data()) + 0.5 * flux[row].gradient[n], by_pressure.data());
+      for (int v = 0; v < n; ++v) store(row == v ? -weight : Pack(0.0), gradients.state[k][row][v].data());
+      store(-dissipation[row].gradient[static_cast<int>(k)], gradients.pressure[k][row].data());
+    }
+  }
+  for (std::size_t side = 0; side < 2; ++side)
+    for (int row = 0; row < n; ++row)
       store(-dissipation[row].gradient[4 + static_cast<int>(side)], gradients.radius[side][row].data());
+}
+
+// Adds those of the central flux: half of each side's flux, a function of that side's state and
+// pressure.
+template <int Dim>
+void add_central_gradients(const FaceStencil<Dim, Pack>& cells, const MovedFace<Dim, Pack>& face,
+                           FaceGradients<Dim>& gradients) {
+  constexpr int n = state_size<Dim>;
+  using C = Dual<Pack, n + 1>;
+  const auto add = [](const Pack& value, std::array<double, lanes<Pack>>& to) {
+    store(Load<Pack>::from(to.data()) + value, to.data());
+  };
+  for (std::size_t k : {1, 2}) {
+    State<Dim, C> w;
+    for (int v = 0; v < n; ++v) w[v] = C::seed(cells.w[static_cast<int>(k)][v], v);
+    const auto flux =
+        euler_flux<Dim>(w, C::seed(cells.p[static_cast<int>(k)], n), face.normal, face.sweep);
+    for (int row = 0; row < n; ++row) {
+      for (int v = 0; v < n; ++v) add(0.5 * flux[row].gradient[v], gradients.state[k][row][v]);
+      add(0.5 * flux[row].gradient[n], gradients.pressure[k][row]);
     }
   }
 }
@@ -79,6 +123,7 @@ struct FaceScatter {
   std::ptrdiff_t face;  // offset: cell 2 of the stencil
   std::ptrdiff_t step;  // stride of direction d
   std::size_t lane;
+  bool has_radii;  // whether the scheme reads spectral radii
 
   std::ptrdiff_t cell(std::size_t k) const { return face + (static_cast<std::ptrdiff_t>(k) - 2) * step; }
 
@@ -88,20 +133,21 @@ struct FaceScatter {
     std::array<double, n * n> block;
     for (std::size_t row = 0; row < n; ++row) {
       const double by_pressure = weight * gradients.pressure[k][row][lane];
-      for (std::size_t v = 0; v < n; ++v) block[row * n + v] = by_pressure * cells.pressure[v][at];
-      block[row * n + row] += weight * gradients.diffusion[k][lane];
+      for (std::size_t v = 0; v < n; ++v)
+        block[row * n + v] =
+            weight * gradients.state[k][row][v][lane] + by_pressure * cells.pressure[v][at];
     }
-    if (k == source && (k == 1 || k == 2)) add_own_terms(k - 1, at, block);
+    if (has_radii && k == source && (k == 1 || k == 2)) add_radius_terms(k - 1, at, block);
     add_to_row(1, source, +1.0, block);
     add_to_row(2, source, -1.0, block);
   }
 
-  // What only the two cells beside the face have: their flux and their spectral radius.
-  void add_own_terms(std::size_t side, std::size_t at, std::array<double, n * n>& block) const {
+  // What only the two cells beside the face have: their spectral radius.
+  void add_radius_terms(std::size_t side, std::size_t at, std::array<double, n * n>& block) const {
     for (std::size_t row = 0; row < n; ++row) {
       const double by_radius = gradients.radius[side][row][lane];
       for (std::size_t v = 0; v < n; ++v)
-        block[row * n + v] += gradients.convection[side][row][v][lane] + by_radius * cells.radius[d][v][at];
+        block[row * n + v] += by_radius * cells.radius[d][v][at];
     }
   }
 
@@ -129,9 +175,10 @@ Box<Dim> faces_of_plane(const Index<Dim>& extents, int plane, int d) {
 }
 
 // Flattened, as the sweeps of the balance are: packs and blocks stay in registers.
-template <int Dim>
+template <int Dim, class SchemeType>
 [[gnu::flatten]] void assemble_interior(const FlowBlock<Dim>& block, const RigidMotion<Pack>& motion, int d,
-                                        const Box<Dim>& faces, const JstCoefficients& jst,
+                                        const Box<Dim>& faces, const Freestream<Dim, double>& stream,
+                                        const SchemeType& scheme,
                                         const CellDerivatives<Dim>& cells,
                                         BlockSparse<state_size<Dim>>& matrix) {
   const auto& layout = block.geometry.layout;
@@ -141,14 +188,18 @@ template <int Dim>
     return cells.positions[0][static_cast<std::size_t>(o)] >= 0;
   };
   const std::ptrdiff_t last = layout.last(faces);
+  const auto freestream = widened<Dim, Pack>(stream.flow());
   FaceGradients<Dim> gradients;
   for (std::ptrdiff_t o = layout.first(faces); o < last; o += lanes<Pack>) {
-    differentiate_faces<Dim>(block.geometry, cells.state, motion, d, o, jst, gradients);
+    const auto stencil = load_stencil<Dim, Pack>(cells.state, d, o, step);
+    const auto moved = moved_face<Dim, Pack>(block.geometry, motion, d, o);
+    differentiate_dissipation<Dim>(scheme, stencil, moved, freestream, stream.gamma, gradients);
+    add_central_gradients<Dim>(stencil, moved, gradients);
     for (std::ptrdiff_t face = o; face < std::min(o + lanes<Pack>, last); ++face) {
       const bool interior = exists(face - step) && exists(face);
       if (!interior || !(owns_row(face - step) || owns_row(face))) continue;
       const FaceScatter<Dim> scatter{
-          cells, gradients, matrix, d, face, step, static_cast<std::size_t>(face - o)};
+          cells, gradients, matrix, d, face, step, static_cast<std::size_t>(face - o), SchemeType::uses_radii};
       scatter.add(1, 1, 1.0);
       scatter.add(2, 2, 1.0);
       // The outer cells, or the two inner ones they are extrapolated from.
@@ -282,10 +333,14 @@ void FlowJacobian<Dim>::assemble(std::span<const double> w, std::span<const doub
     // Plane by plane, so that the rows of a plane stay in cache while the faces of all directions
     // add to them.
     const auto& extents = block.geometry.layout.extents;
-    for (int plane = 0; plane < extents[Dim - 1]; ++plane)
-      for (int d = 0; d < Dim; ++d)
-        assemble_interior<Dim>(block, wide_motion, d, faces_of_plane<Dim>(extents, plane, d), model_.jst,
-                               cells, matrix);
+    std::visit(
+        [&](const auto& scheme) {
+          for (int plane = 0; plane < extents[Dim - 1]; ++plane)
+            for (int d = 0; d < Dim; ++d)
+              assemble_interior<Dim>(block, wide_motion, d, faces_of_plane<Dim>(extents, plane, d),
+                                     model_.freestream, scheme, cells, matrix);
+        },
+        model_.scheme);
     assemble_boundary<Dim>(block, motion, model_, cells, matrix);
   }
 }

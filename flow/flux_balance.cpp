@@ -29,54 +29,34 @@ template <int Dim, class S>
   }
 }
 
-template <int Dim, class S>
-[[gnu::flatten]] void sweep_sensor(const BlockLayout<Dim>& layout, int d, const JstCoefficients& jst,
-                                   BlockState<Dim, S>& state) {
-  using T = Sweep<S>;
-  const std::ptrdiff_t step = layout.strides[d];
-  const Box<Dim> cells = grown(box_of<Dim>(layout.extents), 1);
-  const S* p = state.p.data();
-  for (std::ptrdiff_t o = layout.first(cells); o < layout.last(cells); o += lanes<T>)
-    store(pressure_sensor<T>(Load<T>::from(p + o - step), Load<T>::from(p + o), Load<T>::from(p + o + step),
-                             jst),
-          state.sensor.data() + o);
-}
+// What a sweep over faces leaves: the flux, its central part alone, or both parts apart.
+enum class Part { flux, central, central_and_dissipation };
 
-// The same flow for every lane.
-template <int Dim, class T, class S>
-UniformFlow<Dim, T> widened(const UniformFlow<Dim, S>& flow) {
-  UniformFlow<Dim, T> wide;
-  for (int v = 0; v < state_size<Dim>; ++v) wide.w[v] = T(flow.w[v]);
-  for (int d = 0; d < Dim; ++d) wide.u[d] = T(flow.u[d]);
-  wide.p = T(flow.p);
-  return wide;
+template <int Dim, class T>
+void store_state(const State<Dim, T>& values, auto& field, std::ptrdiff_t o) {
+  for (int v = 0; v < state_size<Dim>; ++v) store(values[v], field[v].data() + o);
 }
 
 // Flux through every face of a direction, as if it were an interior one, in excess of the free
 // stream's.
-template <int Dim, class S>
+template <Part part, int Dim, class S, class SchemeType>
 [[gnu::flatten]] void sweep_fluxes(const BlockGeometry<Dim>& geometry, const RigidMotion<Sweep<S>>& motion,
-                                   int d, const FlowModel<Dim, S>& model, BlockState<Dim, S>& state) {
+                                   int d, const Freestream<Dim, S>& stream, const SchemeType& scheme,
+                                   BlockState<Dim, S>& state) {
   using T = Sweep<S>;
-  const JstCoefficients& jst = model.jst;
-  const auto freestream = widened<Dim, T>(model.freestream.flow());
+  const auto freestream = widened<Dim, T>(stream.flow());
   const auto& layout = geometry.layout;
   const std::ptrdiff_t step = layout.strides[d];
   Box<Dim> faces = box_of<Dim>(layout.extents);
   ++faces.end[d];
   for (std::ptrdiff_t o = layout.first(faces); o < layout.last(faces); o += lanes<T>) {
-    FaceStencil<Dim, T> cells;
-    for (int k = 0; k < 4; ++k) {
-      const std::ptrdiff_t cell = o + (k - 2) * step;
-      cells.w[k] = load_state<Dim, T>(state, cell);
-      cells.p[k] = Load<T>::from(state.p.data() + cell);
-    }
-    for (int k = 0; k < 2; ++k) cells.radius[k] = Load<T>::from(state.radius[d].data() + o + (k - 1) * step);
+    const FaceStencil<Dim, T> cells = load_stencil<Dim, T>(state, d, o, step);
     const auto face = moved_face<Dim, T>(geometry, motion, d, o);
-    const auto flux =
-        jst_flux<Dim, T>(cells, Load<T>::from(state.sensor.data() + o - step),
-                         Load<T>::from(state.sensor.data() + o), face.normal, face.sweep, jst, freestream);
-    for (int v = 0; v < state_size<Dim>; ++v) store(flux[v], state.flux[d][v].data() + o);
+    State<Dim, T> flux = central_flux<Dim, T>(cells, face, freestream);
+    if constexpr (part == Part::flux) flux -= scheme.dissipation(cells, face, freestream, stream.gamma);
+    if constexpr (part == Part::central_and_dissipation)
+      store_state<Dim, T>(scheme.dissipation(cells, face, freestream, stream.gamma), state.dissipation[d], o);
+    store_state<Dim, T>(flux, state.flux[d], o);
   }
 }
 
@@ -112,7 +92,7 @@ void set_boundary_fluxes(const FlowBlock<Dim>& block, const RigidMotion<S>& moti
 
 // What leaves each cell: the differences of the fluxes through its faces.
 template <int Dim, class S>
-void set_balance(const FlowBlock<Dim>& block, const BlockState<Dim, S>& state, std::span<S> balance) {
+void set_balance(const FlowBlock<Dim>& block, const FaceField<Dim, S>& fluxes, std::span<S> balance) {
   const auto& layout = block.geometry.layout;
   constexpr int n = state_size<Dim>;
   Box<Dim> rows = box_of<Dim>(layout.extents);
@@ -124,7 +104,7 @@ void set_balance(const FlowBlock<Dim>& block, const BlockState<Dim, S>& state, s
       for (int i = 0; i < layout.extents[0]; ++i) {
         S sum(0.0);
         for (int d = 0; d < Dim; ++d) {
-          const S* flux = state.flux[d][v].data() + o + i;
+          const S* flux = fluxes[d][v].data() + o + i;
           sum += flux[layout.strides[d]] - flux[0];
         }
         out[i * n + v] = sum;
@@ -133,15 +113,42 @@ void set_balance(const FlowBlock<Dim>& block, const BlockState<Dim, S>& state, s
   });
 }
 
+// Physical boundaries have no dissipation.
+template <int Dim, class S>
+void clear_boundary_fluxes(const FlowBlock<Dim>& block, FaceField<Dim, S>& fluxes) {
+  for (const BoundaryFace& boundary : block.boundary)
+    for (auto& values : fluxes[static_cast<std::size_t>(boundary.direction)])
+      values[static_cast<std::size_t>(boundary.face)] = S(0.0);
+}
+
+template <int Dim, class S>
+FaceField<Dim, S> zero_field(const BlockLayout<Dim>& layout) {
+  FaceField<Dim, S> field;
+  for (auto& direction : field)
+    for (auto& values : direction) values.assign(layout.size, S(0.0));
+  return field;
+}
+
+// All face sweeps of a block whose cells are loaded.
+template <Part part, int Dim, class S, class SchemeType>
+void sweep_block(const FlowBlock<Dim>& block, const FlowModel<Dim, S>& model, const SchemeType& scheme,
+                 const RigidMotion<S>& motion, BlockState<Dim, S>& state) {
+  const auto wide_motion = widen(motion);
+  if constexpr (SchemeType::uses_radii && part != Part::central)
+    sweep_radii<Dim, S>(block.geometry, wide_motion, model.freestream.gamma, state);
+  for (int d = 0; d < Dim; ++d) {
+    sweep_fluxes<part, Dim, S>(block.geometry, wide_motion, d, model.freestream, scheme, state);
+    set_boundary_fluxes<Dim, S>(block, motion, d, model, state);
+  }
+}
+
 }  // namespace
 
 template <int Dim, class S>
 BlockState<Dim, S>::BlockState(const BlockLayout<Dim>& layout, const State<Dim, S>& fill) {
   for (int v = 0; v < state_size<Dim>; ++v) w[v].assign(layout.size, fill[v]);
-  for (auto& direction : flux)
-    for (auto& values : direction) values.assign(layout.size, S(0.0));
+  flux = zero_field<Dim, S>(layout);
   p.assign(layout.size, S(1.0));
-  sensor.assign(layout.size, S(0.0));
   for (auto& values : radius) values.assign(layout.size, S(1.0));
 }
 
@@ -191,21 +198,42 @@ FluxBalance<Dim, S>::FluxBalance(const FlowDomain<Dim>& domain, const FlowModel<
 }
 
 template <int Dim, class S>
-void FluxBalance<Dim, S>::evaluate(std::span<const S> w, std::span<const S> ghosts,
-                                   const RigidMotion<S>& motion, std::span<S> balance) {
-  const auto wide_motion = widen(motion);
+template <class Visitor>
+void FluxBalance<Dim, S>::evaluate_blocks(std::span<const S> w, std::span<const S> ghosts,
+                                          const Visitor& evaluate_block) {
   for (std::size_t b = 0; b < states_.size(); ++b) {
     const FlowBlock<Dim>& block = domain_.blocks()[b];
-    BlockState<Dim, S>& state = states_[b];
-    load_block<Dim, S>(block, domain_.owned_count(), w, ghosts, model_.freestream.gamma, state);
-    sweep_radii<Dim, S>(block.geometry, wide_motion, model_.freestream.gamma, state);
-    for (int d = 0; d < Dim; ++d) {
-      sweep_sensor<Dim, S>(block.geometry.layout, d, model_.jst, state);
-      sweep_fluxes<Dim, S>(block.geometry, wide_motion, d, model_, state);
-      set_boundary_fluxes<Dim, S>(block, motion, d, model_, state);
-    }
-    set_balance<Dim, S>(block, state, balance);
+    load_block<Dim, S>(block, domain_.owned_count(), w, ghosts, model_.freestream.gamma, states_[b]);
+    std::visit([&](const auto& scheme) { evaluate_block(block, scheme, states_[b]); }, model_.scheme);
   }
+}
+
+template <int Dim, class S>
+void FluxBalance<Dim, S>::evaluate(std::span<const S> w, std::span<const S> ghosts,
+                                   const RigidMotion<S>& motion, std::span<S> balance) {
+  evaluate_blocks(w, ghosts, [&](const auto& block, const auto& scheme, auto& state) {
+    sweep_block<Part::flux, Dim, S>(block, model_, scheme, motion, state);
+    set_balance<Dim, S>(block, state.flux, balance);
+  });
+}
+
+template <int Dim, class S>
+void FluxBalance<Dim, S>::evaluate_parts(std::span<const S> w, std::span<const S> ghosts,
+                                         const RigidMotion<S>& motion, std::span<S> central,
+                                         std::span<S> dissipation)
+  requires std::is_same_v<S, double>
+{
+  evaluate_blocks(w, ghosts, [&](const auto& block, const auto& scheme, auto& state) {
+    if (dissipation.empty()) {
+      sweep_block<Part::central, Dim, S>(block, model_, scheme, motion, state);
+    } else {
+      if (state.dissipation[0][0].empty()) state.dissipation = zero_field<Dim, S>(block.geometry.layout);
+      sweep_block<Part::central_and_dissipation, Dim, S>(block, model_, scheme, motion, state);
+      clear_boundary_fluxes<Dim, S>(block, state.dissipation);
+      set_balance<Dim, S>(block, state.dissipation, dissipation);
+    }
+    set_balance<Dim, S>(block, state.flux, central);
+  });
 }
 
 template <int Dim>

@@ -1,11 +1,12 @@
 #pragma once
 
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "flow/flow_domain.hpp"
 #include "flow/motion.hpp"
-#include "flow/scheme/jst.hpp"
+#include "flow/scheme/scheme.hpp"
 
 namespace wingbeat {
 
@@ -13,8 +14,12 @@ namespace wingbeat {
 template <int Dim, class S>
 struct FlowModel {
   Freestream<Dim, S> freestream;
-  JstCoefficients jst;
+  Scheme scheme;
 };
+
+// A flux through every face of a block: [direction][variable][offset].
+template <int Dim, class S>
+using FaceField = std::array<std::array<std::vector<S>, state_size<Dim>>, Dim>;
 
 // A block's cell quantities, by offset, in arrays of number type S.
 template <int Dim, class S>
@@ -22,8 +27,8 @@ struct BlockState {
   std::array<std::vector<S>, state_size<Dim>> w;
   std::vector<S> p;
   std::array<std::vector<S>, Dim> radius;
-  std::vector<S> sensor;                                              // of the direction being swept
-  std::array<std::array<std::vector<S>, state_size<Dim>>, Dim> flux;  // [direction][variable]
+  FaceField<Dim, S> flux;
+  FaceField<Dim, S> dissipation;  // empty unless it is kept apart from the flux
 
   explicit BlockState(const BlockLayout<Dim>& layout, const State<Dim, S>& fill);
 };
@@ -36,8 +41,32 @@ State<Dim, T> load_state(const BlockState<Dim, S>& state, std::ptrdiff_t o) {
   return w;
 }
 
+// The four cells in line with the face (or with lanes<T> consecutive faces) at offset `face`.
+template <int Dim, class T, class S>
+FaceStencil<Dim, T> load_stencil(const BlockState<Dim, S>& state, int d, std::ptrdiff_t face,
+                                 std::ptrdiff_t step) {
+  FaceStencil<Dim, T> cells;
+  for (int k = 0; k < 4; ++k) {
+    const std::ptrdiff_t cell = face + (k - 2) * step;
+    cells.w[k] = load_state<Dim, T>(state, cell);
+    cells.p[k] = Load<T>::from(state.p.data() + cell);
+  }
+  for (int k = 0; k < 2; ++k) cells.radius[k] = Load<T>::from(state.radius[d].data() + face + (k - 1) * step);
+  return cells;
+}
+
+// The same flow for every lane.
+template <int Dim, class T, class S>
+UniformFlow<Dim, T> widened(const UniformFlow<Dim, S>& flow) {
+  UniformFlow<Dim, T> wide;
+  for (int v = 0; v < state_size<Dim>; ++v) wide.w[v] = T(flow.w[v]);
+  for (int d = 0; d < Dim; ++d) wide.u[d] = T(flow.u[d]);
+  wide.p = T(flow.p);
+  return wide;
+}
+
 // Net flux out of every cell of a rank: sum over faces of (F - d), for one instance, on faces
-// moved by a rigid motion (eq:euler-ale, eq:jst). S is double, computed several cells at a time,
+// moved by a rigid motion (eq:euler-ale, eq:scheme). S is double, computed several cells at a time,
 // or a dual number, whose gradients are tangents of the whole balance.
 template <int Dim, class S>
 class FluxBalance {
@@ -47,8 +76,15 @@ class FluxBalance {
   // w: [owned cell][variable], ghosts: [ghost cell][variable] -> balance: [owned cell][variable].
   void evaluate(std::span<const S> w, std::span<const S> ghosts, const RigidMotion<S>& motion,
                 std::span<S> balance);
+  // Its two parts, balance = central - dissipation. An empty `dissipation` is not computed.
+  void evaluate_parts(std::span<const S> w, std::span<const S> ghosts, const RigidMotion<S>& motion,
+                      std::span<S> central, std::span<S> dissipation)
+    requires std::is_same_v<S, double>;
 
  private:
+  template <class Visitor>
+  void evaluate_blocks(std::span<const S> w, std::span<const S> ghosts, const Visitor& evaluate_block);
+
   const FlowDomain<Dim>& domain_;
   FlowModel<Dim, S> model_;
   std::vector<BlockState<Dim, S>> states_;

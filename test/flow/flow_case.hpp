@@ -30,7 +30,7 @@ struct FlowCase {
         domain(comm, local, {{{0.2, 0.0}}}),
         model{{1.4, mach, std::cos(angle_deg * std::numbers::pi / 180),
                std::sin(angle_deg * std::numbers::pi / 180)},
-              {0.25, 1.0 / 64.0, smoothing}} {}
+              JstScheme{0.25, 1.0 / 64.0, smoothing}} {}
 };
 
 inline MultiblockMesh<2> section_mesh(const std::string& name, int around, int normal, int blocks = 1,

@@ -65,7 +65,7 @@ std::vector<double> dual_tangent(const FlowCase<Dim>& c, const TimeSpectral& tim
   using D = Dual<double, 1>;
   constexpr int n = state_size<Dim>;
   const auto& f = c.model.freestream;
-  FluxBalance<Dim, D> balance(c.domain, {{f.gamma, f.mach, f.angle_cosine, f.angle_sine}, c.model.jst});
+  FluxBalance<Dim, D> balance(c.domain, {{f.gamma, f.mach, f.angle_cosine, f.angle_sine}, c.model.scheme});
   const std::size_t count = c.domain.state_count(),
                     ghost_count = static_cast<std::size_t>(c.domain.ghost_count()) * n;
   std::vector<double> ghosts(ghost_count * time.instances()), ghost_tangents(ghosts.size());

@@ -5,7 +5,7 @@
 
 #include "flow/boundary.hpp"
 #include "flow/cell_quantities.hpp"
-#include "flow/scheme/jst.hpp"
+#include "flow/scheme/scheme.hpp"
 
 namespace wingbeat::testing {
 
@@ -78,11 +78,11 @@ struct Rotation {
   }
 };
 
-// The whole JST flux through a face as a function of its four cells alone: pressures, sensors and
-// scaled radii follow from the states. Normals of the cell's directions, the face's first.
-template <int Dim, class T>
-State<Dim, T> jst_flux_of_cells(const Vec<State<Dim, T>, 4>& w, const Vec<Vec<double, Dim>, Dim>& normals,
-                                const Vec<double, Dim>& sweeps, const JstCoefficients& jst) {
+// The whole flux through a face as a function of its four cells alone: pressures and scaled radii
+// follow from the states. Normals of the cell's directions, the face's first.
+template <int Dim, class T, class SchemeType>
+State<Dim, T> flux_of_cells(const Vec<State<Dim, T>, 4>& w, const Vec<Vec<double, Dim>, Dim>& normals,
+                                const Vec<double, Dim>& sweeps, const SchemeType& scheme) {
   FaceStencil<Dim, T> cells;
   for (int k = 0; k < 4; ++k) {
     cells.w[k] = w[k];
@@ -93,9 +93,7 @@ State<Dim, T> jst_flux_of_cells(const Vec<State<Dim, T>, 4>& w, const Vec<Vec<do
         spectral_radii<Dim, T, double>(w[1 + k], cells.p[1 + k], normals, sweeps, gamma_air))[0];
   Vec<T, Dim> normal;
   for (int d = 0; d < Dim; ++d) normal[d] = T(normals[0][d]);
-  return jst_flux<Dim, T>(cells, pressure_sensor<T>(cells.p[0], cells.p[1], cells.p[2], jst),
-                          pressure_sensor<T>(cells.p[1], cells.p[2], cells.p[3], jst), normal, T(sweeps[0]),
-                          jst);
+  return numerical_flux<Dim, T>(scheme, cells, MovedFace<Dim, T>{normal, T(sweeps[0])}, gamma_air);
 }
 
 // Three independent directions of a cell of aspect ratio up to `stretch`.

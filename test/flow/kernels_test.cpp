@@ -10,8 +10,8 @@ namespace {
 using namespace testing;
 
 constexpr double round_off = 64 * std::numeric_limits<double>::epsilon();
-const JstCoefficients smooth{0.25, 1.0 / 64.0, 1.0};
-const JstCoefficients classical{0.25, 1.0 / 64.0, 0.0};
+const JstScheme smooth{0.25, 1.0 / 64.0, 1.0};
+const JstScheme classical{0.25, 1.0 / 64.0, 0.0};
 
 template <int N>
 void expect_close(const Vec<double, N>& a, const Vec<double, N>& b, double tolerance = round_off) {
@@ -34,7 +34,7 @@ void expect_consistent() {
     const auto sweeps = sample.vector<Dim>(0.4);
     const auto exact = exact_flux<Dim>(w, normals[0], sweeps[0]);
     for (const auto& jst : {smooth, classical})
-      expect_close(jst_flux_of_cells<Dim, double>({{{w, w, w, w}}}, normals, sweeps, jst), exact);
+      expect_close(flux_of_cells<Dim, double>({{{w, w, w, w}}}, normals, sweeps, jst), exact);
     expect_close(farfield_flux<Dim, double, double>(w, w, normals[0], sweeps[0], gamma_air), exact);
   }
 }
@@ -75,8 +75,8 @@ void expect_rotation_invariance() {
     expect_close(turn.of_state(farfield_flux<Dim, double, double>(w[0], w[1], n, sweep, gamma_air)),
                  farfield_flux<Dim, double, double>(turned[0], turned[1], m, sweep, gamma_air));
     for (const auto& jst : {smooth, classical})
-      expect_close(turn.of_state(jst_flux_of_cells<Dim, double>(w, normals, sweeps, jst)),
-                   jst_flux_of_cells<Dim, double>(turned, turned_normals, sweeps, jst));
+      expect_close(turn.of_state(flux_of_cells<Dim, double>(w, normals, sweeps, jst)),
+                   flux_of_cells<Dim, double>(turned, turned_normals, sweeps, jst));
   }
 }
 
@@ -111,8 +111,8 @@ TEST(FlowKernels, PlaneFlowInSpaceGivesTheNumbersOfTheTwoDimensionalKernels) {
       solid.p[k] = pressure<3, double>(solid.w[k], gamma_air);
     }
     flat.radius = solid.radius = Vec<double, 2>{{{1.7, 2.1}}};
-    expect_close(embedded(jst_flux<2, double>(flat, 0.02, 0.07, normal, sweep, smooth)),
-                 jst_flux<3, double>(solid, 0.02, 0.07, embedded(normal), sweep, smooth));
+    expect_close(embedded(numerical_flux<2, double>(smooth, flat, {normal, sweep}, gamma_air)),
+                 numerical_flux<3, double>(smooth, solid, {embedded(normal), sweep}, gamma_air));
   }
 }
 
@@ -141,9 +141,9 @@ TEST(FlowKernels, PackLanesAreTheDoubleResults) {
   for (int d = 0; d < 2; ++d) normal[d] = Pack(normals[0][d]);
   const Pack sweep(sweeps[0]);
   for (const auto& jst : {smooth, classical}) {
-    const auto jst_pack = jst_flux_of_cells<2, Pack>(packed, normals, sweeps, jst);
+    const auto jst_pack = flux_of_cells<2, Pack>(packed, normals, sweeps, jst);
     for (int lane = 0; lane < count; ++lane) {
-      const auto jst_double = jst_flux_of_cells<2, double>(lines[lane], normals, sweeps, jst);
+      const auto jst_double = flux_of_cells<2, double>(lines[lane], normals, sweeps, jst);
       for (int v = 0; v < 4; ++v)
         EXPECT_NEAR(jst_pack[v][lane], jst_double[v], round_off) << lane << ' ' << v;
     }
@@ -223,7 +223,7 @@ void expect_kernel_gradients() {
       expect_gradients(flattened<Dim, 4>(w), [&]<class T, int N>(const Vec<T, N>& x) {
         Vec<State<Dim, T>, 4> cells;
         for (int k = 0; k < 4; ++k) cells[k] = cell_of<Dim>(x, k);
-        return jst_flux_of_cells<Dim, T>(cells, normals, sweeps, jst);
+        return flux_of_cells<Dim, T>(cells, normals, sweeps, jst);
       });
   }
 }
@@ -236,7 +236,7 @@ TEST(FlowKernels, DualGradientsMatchCentralDifferences) {
 // sqrt(x^2 + w^2) - w lies within w of |x|: each switch is within its width of the classical one.
 TEST(JstSwitches, TendToTheClassicalOnesAsTheSmoothingFalls) {
   for (double sigma : {1e-1, 1e-3, 1e-6, 0.0}) {
-    const JstCoefficients jst{0.25, 1.0 / 64.0, sigma};
+    const JstScheme jst{0.25, 1.0 / 64.0, sigma};
     const double width = sigma * jst.threshold();
     double largest = 0.0;
     for (double p : {0.7, 0.95, 1.0, 1.02, 1.4}) {

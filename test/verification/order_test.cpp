@@ -9,8 +9,8 @@ namespace {
 
 using namespace testing;
 
-const JstCoefficients no_dissipation{0.0, 0.0, 0.0};
-const JstCoefficients jst{0.25, 1.0 / 64.0, 1.0};
+const JstScheme no_dissipation{0.0, 0.0, 0.0};
+const JstScheme jst{0.25, 1.0 / 64.0, 1.0};
 
 // exp with its derivatives: the code itself needs none.
 template <int N>
@@ -97,9 +97,9 @@ void expect_order(const std::vector<int>& cells, double order, const Error& erro
   }
 }
 
-double vortex_truncation_error(int cells, const JstCoefficients& scheme) {
+double vortex_truncation_error(int cells, const Scheme& scheme) {
   FlowCase<2> c(bent_box<2>({cells, cells}), 0.4, 90.0);
-  c.model.jst = scheme;
+  c.model.scheme = scheme;
   FlowEquations<2> flow(c.domain, c.model, TimeSpectral(0));
   const double speed = c.model.freestream.speed();
   const auto exact = integrate<2>(c.mesh, IsentropicVortex{speed, 1.4}, 1.4);
@@ -117,9 +117,9 @@ TEST(OrderOfAccuracy, IsentropicVortexOnAMeshThatMovesWithIt) {
 }
 
 template <int Dim>
-double manufactured_solution_error(const Index<Dim>& cells, const JstCoefficients& scheme) {
+double manufactured_solution_error(const Index<Dim>& cells, const Scheme& scheme) {
   FlowCase<Dim> c(leaning_box<Dim>(cells), 0.5, 25.0);
-  c.model.jst = scheme;
+  c.model.scheme = scheme;
   FlowEquations<Dim> flow(c.domain, c.model, TimeSpectral(0));
   const auto exact = integrate<Dim>(c.mesh, ManufacturedFlow<Dim>{c.model.freestream}, 1.4);
   const auto subdomain =
