@@ -49,6 +49,29 @@ std::string coupled_advice(SolveStatus status, const SolverSettings& settings) {
   return "";
 }
 
+std::string forced_advice(SolveStatus status, const SolverSettings& settings) {
+  switch (status) {
+    case SolveStatus::converged:
+      return "";
+    case SolveStatus::iteration_limit:
+      return fmt::format(
+          "Newton on the forced motion needs more than solver.max_newton_iterations = {}; allow more and "
+          "continue with --restart solution.cgns",
+          settings.max_newton_iterations);
+    case SolveStatus::stalled:
+      return fmt::format(
+          "Newton on the forced motion stalled: no step lowers |R|; start from the solution of a smaller "
+          "amplitude with --restart, or raise solver.max_linear_iterations = {} if that many were used",
+          settings.max_linear_iterations);
+    case SolveStatus::diverged:
+      return "Newton on the forced motion diverged; start from the solution of a smaller amplitude with "
+             "--restart";
+    case SolveStatus::interrupted:
+      return "stopped by a signal or --walltime; continue with --restart solution.cgns";
+  }
+  return "";
+}
+
 std::string general_advice(SolveStatus status) {
   if (status == SolveStatus::converged) return "";
   if (status == SolveStatus::interrupted)

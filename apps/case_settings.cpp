@@ -9,7 +9,7 @@ void CaseSettings::describe(SettingRegistry& registry) {
   registry.add_section("mesh", "The section and the mesh around it.", mesh);
   registry.add_section("partition", "How cells are shared among ranks.", partition);
   registry.add_section("flow", "The free stream, the gas and the scheme.", flow);
-  registry.add_section("pitch", "Pitch of the undeformed section.", pitch);
+  registry.add_section("pitch", "Pitch of the undeformed section, and the motion prescribed to it.", pitch);
   registry.add_section("time", "The period in time.", time);
   registry.add_section(
       "structure", "The pitch-plunge section, made dimensionless by semichord and omega_alpha.", structure);

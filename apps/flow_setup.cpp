@@ -10,6 +10,18 @@ namespace {
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
+Scheme flow_scheme(const FlowSettings& settings) {
+  const Limiter limiter =
+      settings.limiter == "venkatakrishnan" ? Limiter::venkatakrishnan : Limiter::van_albada;
+  if (settings.scheme == "matrix")
+    return MatrixScheme{settings.matrix_k2, settings.matrix_k4, settings.jst_smoothing,
+                        settings.matrix_acoustic_floor, settings.matrix_linear_floor};
+  if (settings.scheme == "cusp") return CuspScheme{};
+  if (settings.scheme == "roe") return RoeScheme{limiter, settings.entropy_fix};
+  if (settings.scheme == "van_leer") return VanLeerScheme{limiter};
+  return JstScheme{settings.jst_k2, settings.jst_k4, settings.jst_smoothing};
+}
+
 bool has_structure(const CaseSettings& settings) { return settings.structure.mass_ratio > 0.0; }
 
 }  // namespace
@@ -17,8 +29,7 @@ bool has_structure(const CaseSettings& settings) { return settings.structure.mas
 template <int Dim>
 FlowModel<Dim, double> flow_model(const FlowSettings& settings) {
   const double angle = radians(settings.angle_of_attack_deg);
-  return {{settings.gamma, settings.mach, std::cos(angle), std::sin(angle)},
-          JstScheme{settings.jst_k2, settings.jst_k4, settings.jst_smoothing}};
+  return {{settings.gamma, settings.mach, std::cos(angle), std::sin(angle)}, flow_scheme(settings)};
 }
 
 TypicalSection typical_section(const StructureSettings& settings) {

@@ -27,6 +27,11 @@ void History::coupled(const std::string& stage, const NewtonIteration& i, const 
               reduced_velocity, static_cast<long>(i.linear_iterations), seconds()});
 }
 
+void History::forced(const std::string& stage, const ForcedFlowIteration& i) {
+  table_.add({stage, static_cast<long>(i.iteration), i.residual, std::string(), std::string(), std::string(),
+              std::string(), std::string(), static_cast<long>(i.linear_iterations), seconds()});
+}
+
 void History::write() const {
   on_root(context_.comm, [&] { table_.write(context_.output / "history.csv"); });
 }

@@ -6,6 +6,7 @@
 
 #include "apps/context.hpp"
 #include "core/io/csv.hpp"
+#include "flow/forced_flow.hpp"
 #include "flow/steady_sequence.hpp"
 #include "structure/aeroelastic_problem.hpp"
 
@@ -19,6 +20,7 @@ class History {
   void steady(const std::string& mesh, const PseudoTransientIteration& iteration);
   void coupled(const std::string& stage, const NewtonIteration& iteration,
                const AeroelasticResiduals& residuals, double omega, double reduced_velocity);
+  void forced(const std::string& stage, const ForcedFlowIteration& iteration);
   // Replaces history.csv; rank 0.
   void write() const;
 

@@ -1,6 +1,7 @@
 #include "apps/run_case.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -42,7 +43,15 @@ ResolvedCase read_case(const Comm& comm, const CommandLine& command, const Verb&
   std::string text;
   on_root(comm, [&] { text = read_case_text(command.target); });
   text = comm.broadcast(text);
-  return resolve_case(text, command.target, command.overrides, verb.sections, "wingbeat " + verb.name);
+  ResolvedCase resolved =
+      resolve_case(text, command.target, command.overrides, verb.sections, "wingbeat " + verb.name);
+  if (!verb.faults) return resolved;
+  const std::vector<std::string> faults = verb.faults(resolved.settings);
+  if (faults.size() == 1) throw InputError(fmt::format("{}: {}", command.target, faults[0]));
+  if (!faults.empty())
+    throw InputError(fmt::format("{} faults in the case:\n  {}: {}", faults.size(), command.target,
+                                 fmt::join(faults, fmt::format("\n  {}: ", command.target))));
+  return resolved;
 }
 
 void prepare_output(const Comm& comm, const CommandLine& command, const ResolvedCase& resolved, Log& log) {

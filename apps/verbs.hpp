@@ -13,10 +13,14 @@ namespace wingbeat {
 // fills context.result. It is collective. It returns how the solution ended; the caller writes
 // result.json and turns the status into the exit code. Faults of the input are InputError.
 SolveStatus run_steady(Context& context);
+SolveStatus run_pitch(Context& context);
 SolveStatus run_flutter(Context& context);
 SolveStatus run_pk(Context& context);
 SolveStatus run_mesh(Context& context);
 SolveStatus run_partition(Context& context);
+
+// What is wrong with a case for that verb beyond single sections: "section.key: ...", what to do.
+std::vector<std::string> pitch_faults(const CaseSettings& settings);
 
 // A verb of the command line that works on a case.
 struct Verb {
@@ -25,6 +29,7 @@ struct Verb {
   std::vector<std::string> sections;  // whose required keys the case must give
   SolveStatus (*run)(Context&);
   bool can_restart = false;
+  std::vector<std::string> (*faults)(const CaseSettings&) = nullptr;
 };
 
 std::span<const Verb> verbs();

@@ -1,13 +1,16 @@
 #include "partition/partition.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <string>
 #include <tuple>
 
 #include "core/io/error.hpp"
+#include "core/mesh/coarsen.hpp"
 #include "partition/block_graph.hpp"
+#include "partition/coarsening.hpp"
 #include "partition/recursive_bisection.hpp"
 #include "partition/split_blocks.hpp"
 
@@ -26,6 +29,8 @@ void check_request(std::size_t cells, int ranks, const PartitionOptions& options
   if (!(options.imbalance >= 0.0))
     throw InputError("partition: an imbalance of " + std::to_string(options.imbalance) +
                      ", allowed is 0 or more (0.05 lets the heaviest rank hold 5 % more than the mean)");
+  ensure(options.granularity >= 1 && std::has_single_bit(static_cast<unsigned>(options.granularity)),
+         "a granularity of " + std::to_string(options.granularity) + ", which is no power of two");
   // METIS adds up weights in 32 bits.
   if (cells > static_cast<std::size_t>(std::numeric_limits<int>::max()))
     throw InputError("partition: a mesh of " + std::to_string(cells) + " cells, at most " +
@@ -90,31 +95,50 @@ bool is_balanced(const std::vector<SubBlock<Dim>>& blocks, int ranks, std::size_
   return least > 0 && most <= limit;
 }
 
+// The division at planes of any number.
+template <int Dim>
+Partition<Dim> divide(const MultiblockMesh<Dim>& mesh, int ranks, double imbalance) {
+  const std::size_t cells = mesh.cell_count();
+  const std::size_t limit = largest_share(cells, ranks, imbalance);
+  Candidate<Dim> best = by_recursive_bisection(mesh, ranks, limit);
+  // The coarsest splitting with which METIS keeps the balance gives the fewest blocks. Out of
+  // balance and yet cutting more than the bisection, it would not improve with finer pieces.
+  for (const int pieces_per_rank : {2, 4, 8, 16}) {
+    if (static_cast<std::size_t>(ranks) * pieces_per_rank * least_piece > cells) break;
+    Candidate<Dim> found = by_metis(mesh, ranks, pieces_per_rank, imbalance);
+    const bool balanced = is_balanced(found.blocks, ranks, limit);
+    if (balanced && found.cost() < best.cost()) best = std::move(found);
+    if (balanced || found.edge_cut > best.edge_cut) break;
+  }
+  return {ranks, std::move(best.blocks)};
+}
+
 }  // namespace
 
 template <int Dim>
 Partition<Dim> partition_mesh(const MultiblockMesh<Dim>& mesh, int ranks, const PartitionOptions& options) {
   const std::size_t cells = mesh.cell_count();
   check_request(cells, ranks, options);
-  Partition<Dim> partition{ranks, {}};
   if (ranks == 1) {
+    Partition<Dim> partition{ranks, {}};
     for (std::size_t z = 0; z < mesh.zones.size(); ++z)
       partition.blocks.push_back({static_cast<int>(z), box_of<Dim>(mesh.zones[z].cells), 0});
     return partition;
   }
-  const std::size_t limit = largest_share(cells, ranks, options.imbalance);
-  Candidate<Dim> best = by_recursive_bisection(mesh, ranks, limit);
-  // The coarsest splitting with which METIS keeps the balance gives the fewest blocks. Out of
-  // balance and yet cutting more than the bisection, it would not improve with finer pieces.
-  for (const int pieces_per_rank : {2, 4, 8, 16}) {
-    if (static_cast<std::size_t>(ranks) * pieces_per_rank * least_piece > cells) break;
-    Candidate<Dim> found = by_metis(mesh, ranks, pieces_per_rank, options.imbalance);
-    const bool balanced = is_balanced(found.blocks, ranks, limit);
-    if (balanced && found.cost() < best.cost()) best = std::move(found);
-    if (balanced || found.edge_cut > best.edge_cut) break;
+  // Planes of a coarse mesh are those whose number in the fine one is a multiple of the granularity.
+  std::vector<MultiblockMesh<Dim>> coarser;
+  for (int granularity = 2; granularity <= options.granularity; granularity *= 2) {
+    auto next = coarsened(coarser.empty() ? mesh : coarser.back(), 1);
+    if (!next || next->cell_count() < static_cast<std::size_t>(ranks)) break;
+    coarser.push_back(std::move(*next));
   }
-  partition.blocks = std::move(best.blocks);
-  return partition;
+  const std::size_t limit = largest_share(cells, ranks, options.imbalance);
+  for (; !coarser.empty(); coarser.pop_back()) {
+    const MultiblockMesh<Dim>& coarse = coarser.back();
+    Partition<Dim> found = refined(divide(coarse, ranks, options.imbalance), coarse, mesh);
+    if (is_balanced(found.blocks, ranks, limit)) return found;
+  }
+  return divide(mesh, ranks, options.imbalance);
 }
 
 template Partition<2> partition_mesh<2>(const MultiblockMesh<2>&, int, const PartitionOptions&);

@@ -23,6 +23,7 @@ struct Partition {
 
 struct PartitionOptions {
   double imbalance = 0.05;  // allowed excess of the heaviest rank over the mean
+  int granularity = 1;      // power of two: cut zones at multiples of it, for multigrid
 };
 
 // What a partition costs: printed before a run.
@@ -40,6 +41,8 @@ struct PartitionStatistics {
 // bisection takes its place where it cuts no more faces or METIS misses the allowed imbalance.
 // No rank exceeds that imbalance by more than whole cells force it to. One rank keeps the zones
 // whole. Deterministic; time grows about as ranks do.
+// The granularity asked for is halved until the mesh itself can be coarsened that far and the allowed
+// imbalance can be kept.
 // Throws InputError when there are more ranks than cells.
 template <int Dim>
 Partition<Dim> partition_mesh(const MultiblockMesh<Dim>& mesh, int ranks, const PartitionOptions& options);

@@ -13,7 +13,8 @@ namespace {
 using Complex = std::complex<double>;
 constexpr Complex i_unit{0.0, 1.0};
 
-// Factor e^{-i phase} that makes `mode` a sine of positive amplitude.
+}  // namespace
+
 Complex turn_to_sine(const StructureModel& model, const Eigen::VectorXcd& u_hat, int mode) {
   const double size = std::abs(u_hat[mode]);
   if (!(size > 1e-12 * u_hat.norm()))
@@ -22,8 +23,6 @@ Complex turn_to_sine(const StructureModel& model, const Eigen::VectorXcd& u_hat,
                     model.modes[static_cast<std::size_t>(mode)]));
   return -i_unit * std::conj(u_hat[mode]) / size;
 }
-
-}  // namespace
 
 std::vector<double> harmonic_states(const StructureModel& model, const TimeSpectral& time,
                                     const Eigen::VectorXcd& u_hat, double omega) {

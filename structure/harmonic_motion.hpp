@@ -14,6 +14,10 @@ namespace wingbeat {
 std::vector<double> harmonic_states(const StructureModel& model, const TimeSpectral& time,
                                     const Eigen::VectorXcd& u_hat, double omega);
 
+// Factor e^{-i phase} that turns u_hat so that `mode` is a sine of positive amplitude,
+// u_hat[mode] = -i a, a > 0. Throws InputError where that mode is at rest.
+std::complex<double> turn_to_sine(const StructureModel& model, const Eigen::VectorXcd& u_hat, int mode);
+
 // u_hat turned and scaled so that E_fl of its motion is `energy` and its phase mode is a sine
 // of positive amplitude: u_hat[phase_mode] = -i a, a > 0. Throws InputError where that mode is at rest.
 Eigen::VectorXcd scaled_to_energy(const StructureModel& model, const Eigen::VectorXcd& u_hat, double omega,

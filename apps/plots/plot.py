@@ -6,6 +6,7 @@
 Each figure is drawn if its table is there:
     mesh.csv                zone, i, j, x, y                                      mesh near the section
     surface.csv             instance, phase, block, x, y, x_body, y_body, cp      pressure on the section
+    loads.csv               phase, pitch_deg, plunge, cl, cm                      loops of a prescribed motion
     pk.csv                  reduced_velocity, mode, frequency, damping, status    p-k curves
     aerodynamic_matrix.csv  k, Qhh_re, Qhh_im, ..., Qaa_im                        size and phase of Q(k)
     history.csv             stage, iteration, flow, structure, phase, energy      convergence
@@ -21,6 +22,7 @@ sys.dont_write_bytecode = True  # the folder of the program may not be the user'
 try:
     import aerodynamic_matrix
     import convergence
+    import loops
     import mesh
     import pk
     import pressure
@@ -30,7 +32,7 @@ except ModuleNotFoundError as missing:
     sys.exit(f"plot: Python at {sys.executable} has no {missing.name}; "
              "install it with: apt-get install python3-matplotlib")
 
-FIGURES = [mesh, pressure, pk, aerodynamic_matrix, convergence]
+FIGURES = [mesh, pressure, loops, pk, aerodynamic_matrix, convergence]
 
 
 def draw_all(folder):

@@ -53,6 +53,8 @@ def title_of(folder, periodic):
     result, case = read_result(folder), read_case(folder)
     parts = [f"Mach {case_value(case, 'flow', 'mach'):g}"] if case_value(case, "flow", "mach") else []
     amplitude = (result.get("flutter") or {}).get("pitch_amplitude_deg")
+    if "pitch" in result:
+        amplitude = case_value(case, "pitch", "amplitude_deg")
     if periodic and amplitude:
         parts.append(f"pitch amplitude {amplitude:.3g}°")
     return "Pressure on the section" + "".join(f", {part}" for part in parts)

@@ -1,16 +1,23 @@
 #include "core/mesh/cut_blocks.hpp"
 
 #include <algorithm>
-#include <climits>
+#include <map>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
 
 #include "core/io/error.hpp"
+#include "core/mesh/coarsen.hpp"
+#include "core/mesh/cut_box.hpp"
 #include "core/mesh/interface_transform.hpp"
 
 namespace wingbeat {
 
 namespace {
+
+// How much larger than the mean a piece may be for the sake of multigrid.
+constexpr double allowed_excess = 0.05;
 
 // A piece of a zone of the mesh that is cut.
 template <int Dim>
@@ -19,6 +26,33 @@ struct Piece {
   Box<Dim> cells;
   std::string name;
 };
+
+// The pieces that have a side in a plane of nodes of a zone.
+struct SidePlane {
+  int zone = 0;
+  int direction = 0;
+  int end = 0;
+  int plane = 0;
+  friend auto operator<=>(const SidePlane&, const SidePlane&) = default;
+};
+using PiecesAtPlanes = std::map<SidePlane, std::vector<std::size_t>>;
+
+template <int Dim>
+PiecesAtPlanes pieces_at_planes(const std::vector<Piece<Dim>>& pieces) {
+  PiecesAtPlanes at;
+  for (std::size_t number = 0; number < pieces.size(); ++number)
+    for (int d = 0; d < Dim; ++d) {
+      const auto& [zone, cells, name] = pieces[number];
+      at[{zone, d, 0, cells.begin[d]}].push_back(number);
+      at[{zone, d, 1, cells.end[d]}].push_back(number);
+    }
+  return at;
+}
+
+std::span<const std::size_t> touching(const PiecesAtPlanes& at, const SidePlane& side) {
+  const auto found = at.find(side);
+  return found == at.end() ? std::span<const std::size_t>{} : found->second;
+}
 
 template <int Dim>
 Box<Dim> intersection(const Box<Dim>& a, const Box<Dim>& b) {
@@ -57,8 +91,8 @@ bool spans_a_face(const Box<Dim>& nodes, int direction) {
 // The part of an interface between two pieces, in their own indices; none if they share no face.
 template <int Dim>
 std::optional<Interface<Dim>> common_part(const Interface<Dim>& interface, const Piece<Dim>& piece,
-                                          const std::vector<Piece<Dim>>& pieces, int donor_number) {
-  const Piece<Dim>& donor = pieces[static_cast<std::size_t>(donor_number)];
+                                          const std::vector<Piece<Dim>>& pieces, std::size_t donor_number) {
+  const Piece<Dim>& donor = pieces[donor_number];
   const Box<Dim> own = intersection(interface.nodes, side_nodes(piece.cells, interface.side));
   if (!spans_a_face(own, interface.side.direction)) return std::nullopt;
   const Interface<Dim> back = reversed(interface, piece.zone, interface.name);
@@ -69,7 +103,7 @@ std::optional<Interface<Dim>> common_part(const Interface<Dim>& interface, const
   if (!spans_a_face(nodes, interface.side.direction)) return std::nullopt;
   Interface<Dim> part = interface;
   part.nodes = shifted<Dim>(nodes, piece.cells.begin);
-  part.donor = donor_number;
+  part.donor = static_cast<int>(donor_number);
   part.donor_origin = donor_node<Dim>(interface, nodes.begin);
   for (int d = 0; d < Dim; ++d) part.donor_origin[d] -= donor.cells.begin[d];
   return part;
@@ -77,14 +111,13 @@ std::optional<Interface<Dim>> common_part(const Interface<Dim>& interface, const
 
 template <int Dim>
 void add_divided_interfaces(const MultiblockMesh<Dim>& mesh, const std::vector<Piece<Dim>>& pieces,
-                            const Piece<Dim>& piece, Zone<Dim>& zone) {
+                            const PiecesAtPlanes& at, const Piece<Dim>& piece, Zone<Dim>& zone) {
   for (const auto& interface : mesh.zones[static_cast<std::size_t>(piece.zone)].interfaces) {
     const std::size_t first = zone.interfaces.size();
-    for (std::size_t donor = 0; donor < pieces.size(); ++donor) {
-      if (pieces[donor].zone != interface.donor) continue;
-      if (const auto part = common_part(interface, piece, pieces, static_cast<int>(donor)))
-        zone.interfaces.push_back(*part);
-    }
+    const auto& [direction, end] = interface.donor_side;
+    for (const std::size_t donor :
+         touching(at, {interface.donor, direction, end, interface.donor_origin[direction]}))
+      if (const auto part = common_part(interface, piece, pieces, donor)) zone.interfaces.push_back(*part);
     if (zone.interfaces.size() - first > 1)
       for (std::size_t k = first; k < zone.interfaces.size(); ++k)
         zone.interfaces[k].name.append("-").append(std::to_string(k - first + 1));
@@ -93,13 +126,14 @@ void add_divided_interfaces(const MultiblockMesh<Dim>& mesh, const std::vector<P
 
 // Connections to the other pieces of the same zone.
 template <int Dim>
-void add_cut_interfaces(const std::vector<Piece<Dim>>& pieces, std::size_t number, Zone<Dim>& zone) {
+void add_cut_interfaces(const std::vector<Piece<Dim>>& pieces, const PiecesAtPlanes& at, std::size_t number,
+                        Zone<Dim>& zone) {
   const Piece<Dim>& piece = pieces[number];
-  for (std::size_t other = 0; other < pieces.size(); ++other) {
-    if (other == number || pieces[other].zone != piece.zone) continue;
-    for (int d = 0; d < Dim; ++d)
-      for (int end = 0; end < 2; ++end) {
-        const Side side{d, end}, donor_side{d, 1 - end};
+  for (int d = 0; d < Dim; ++d)
+    for (int end = 0; end < 2; ++end) {
+      const Side side{d, end}, donor_side{d, 1 - end};
+      const int plane = end == 0 ? piece.cells.begin[d] : piece.cells.end[d];
+      for (const std::size_t other : touching(at, {piece.zone, d, 1 - end, plane})) {
         const Box<Dim> nodes =
             intersection(side_nodes(piece.cells, side), side_nodes(pieces[other].cells, donor_side));
         if (!spans_a_face(nodes, d)) continue;
@@ -113,7 +147,7 @@ void add_cut_interfaces(const std::vector<Piece<Dim>>& pieces, std::size_t numbe
         for (int axis = 0; axis < Dim; ++axis) cut.axis[axis] = axis, cut.sign[axis] = 1;
         zone.interfaces.push_back(cut);
       }
-  }
+    }
 }
 
 template <int Dim>
@@ -140,15 +174,6 @@ Zone<Dim> cut_zone(const Zone<Dim>& whole, const Piece<Dim>& piece) {
   return zone;
 }
 
-// Pieces of `minimum_width` that fit into a box.
-template <int Dim>
-std::size_t capacity(const Box<Dim>& box, int minimum_width) {
-  std::size_t pieces = 1;
-  for (int d = 0; d < Dim; ++d)
-    pieces *= static_cast<std::size_t>(std::max(1, box.extent(d) / std::max(1, minimum_width)));
-  return pieces;
-}
-
 // Number of pieces for each zone: the next one always goes where pieces are largest.
 template <int Dim>
 std::vector<int> share_pieces(const MultiblockMesh<Dim>& mesh, int count, int minimum_width) {
@@ -163,7 +188,7 @@ std::vector<int> share_pieces(const MultiblockMesh<Dim>& mesh, int count, int mi
     for (std::size_t z = 0; z < zones; ++z) {
       const Box<Dim> box = box_of<Dim>(mesh.zones[z].cells);
       const double size = static_cast<double>(box.size()) / shares[z];
-      if (static_cast<std::size_t>(shares[z]) < capacity(box, minimum_width) && size > largest_size)
+      if (static_cast<std::size_t>(shares[z]) < cut_capacity(box, minimum_width) && size > largest_size)
         largest = z, largest_size = size;
     }
     if (largest == zones)
@@ -175,75 +200,67 @@ std::vector<int> share_pieces(const MultiblockMesh<Dim>& mesh, int count, int mi
   return shares;
 }
 
+// The box of a zone cut at planes that a coarser mesh keeps; none where pieces would be too uneven.
 template <int Dim>
-void cut_recursively(const Box<Dim>& box, int count, int minimum_width, std::vector<Box<Dim>>& boxes) {
-  if (count == 1) {
-    boxes.push_back(box);
-    return;
-  }
-  int direction = 0;
-  for (int d = 1; d < Dim; ++d)
-    if (box.extent(d) > box.extent(direction)) direction = d;
-  for (int d = Dim - 1; d >= 0; --d)
-    if (box.extent(d) >= count * minimum_width) direction = d;
+std::vector<Box<Dim>> cut_coarse_box(const Index<Dim>& cells, const Index<Dim>& coarse, int count,
+                                     int minimum_width) {
+  Index<Dim> ratio;
+  for (int d = 0; d < Dim; ++d) ratio[d] = cells[d] / coarse[d];
+  // Directions of one cell, which alone may have another ratio, are not cut.
+  const int coarse_width = (minimum_width - 1) / *std::max_element(ratio.begin(), ratio.end()) + 1;
+  if (static_cast<std::size_t>(count) > cut_capacity(box_of<Dim>(coarse), coarse_width)) return {};
+  std::vector<Box<Dim>> boxes = cut_box(box_of<Dim>(coarse), count, coarse_width);
+  for (Box<Dim>& box : boxes)
+    for (int d = 0; d < Dim; ++d) box.begin[d] *= ratio[d], box.end[d] *= ratio[d];
+  const double mean = static_cast<double>(box_of<Dim>(cells).size()) / count;
+  const bool even = std::all_of(boxes.begin(), boxes.end(), [&](const Box<Dim>& box) {
+    return static_cast<double>(box.size()) <= (1.0 + allowed_excess) * mean;
+  });
+  return even ? boxes : std::vector<Box<Dim>>{};
+}
 
-  // Each part must be wide enough for its pieces, `per_layer` of them side by side; where both
-  // do not fit, the first takes whole layers.
-  const int width = box.extent(direction);
-  const auto layers = static_cast<std::size_t>(std::max(1, width / minimum_width));
-  const int per_layer =
-      static_cast<int>(std::min<std::size_t>(capacity(box, minimum_width) / layers, INT_MAX));
-  const auto width_for = [&](int pieces) { return ((pieces - 1) / per_layer + 1) * minimum_width; };
-  int low_count = count / 2;
-  if (width_for(low_count) + width_for(count - low_count) > width) low_count -= low_count % per_layer;
-  const int even = static_cast<int>((2L * width * low_count + count) / (2L * count));
-  const int position = std::clamp(even, width_for(low_count), width - width_for(count - low_count));
-
-  Box<Dim> low = box, high = box;
-  low.end[direction] = high.begin[direction] = box.begin[direction] + position;
-  cut_recursively(low, low_count, minimum_width, boxes);
-  cut_recursively(high, count - low_count, minimum_width, boxes);
+// Zone z of the mesh in `count` boxes that can be halved as often as evenness allows; `coarser` are
+// the meshes of every second node, the finest first.
+template <int Dim>
+std::vector<Box<Dim>> cut_for_multigrid(const MultiblockMesh<Dim>& mesh,
+                                        const std::vector<MultiblockMesh<Dim>>& coarser, std::size_t z,
+                                        int count, int minimum_width) {
+  const Index<Dim>& cells = mesh.zones[z].cells;
+  for (auto coarse = coarser.rbegin(); coarse != coarser.rend(); ++coarse)
+    if (auto boxes = cut_coarse_box<Dim>(cells, coarse->zones[z].cells, count, minimum_width); !boxes.empty())
+      return boxes;
+  return cut_box(box_of<Dim>(cells), count, minimum_width);
 }
 
 }  // namespace
 
 template <int Dim>
-std::vector<Box<Dim>> cut_box(const Box<Dim>& box, int count, int minimum_width) {
-  ensure(count >= 1 && minimum_width >= 1, "cut_box needs a positive count and width");
-  if (static_cast<std::size_t>(count) > capacity(box, minimum_width))
-    throw InputError("a block of " + std::to_string(box.size()) + " cells cannot be cut into " +
-                     std::to_string(count) + " pieces at least " + std::to_string(minimum_width) +
-                     " cells wide; ask for fewer blocks or a finer mesh");
-  std::vector<Box<Dim>> boxes;
-  cut_recursively(box, count, minimum_width, boxes);
-  return boxes;
-}
-
-template <int Dim>
 MultiblockMesh<Dim> cut_blocks(const MultiblockMesh<Dim>& mesh, int count, int minimum_width) {
   const std::vector<int> shares = share_pieces(mesh, count, minimum_width);
+  std::vector<MultiblockMesh<Dim>> coarser;
+  while (auto next = coarsened(coarser.empty() ? mesh : coarser.back(), 1))
+    coarser.push_back(std::move(*next));
   std::vector<Piece<Dim>> pieces;
   for (std::size_t z = 0; z < mesh.zones.size(); ++z) {
     const auto& zone = mesh.zones[z];
-    const auto boxes = cut_box(box_of<Dim>(zone.cells), shares[z], minimum_width);
+    const auto boxes = cut_for_multigrid(mesh, coarser, z, shares[z], minimum_width);
     for (std::size_t k = 0; k < boxes.size(); ++k) {
       const std::string name = boxes.size() == 1 ? zone.name : zone.name + "-" + std::to_string(k + 1);
       pieces.push_back({static_cast<int>(z), boxes[k], name});
     }
   }
+  const PiecesAtPlanes at = pieces_at_planes(pieces);
   MultiblockMesh<Dim> cut;
   for (std::size_t number = 0; number < pieces.size(); ++number) {
     const Piece<Dim>& piece = pieces[number];
     Zone<Dim> zone = cut_zone(mesh.zones[static_cast<std::size_t>(piece.zone)], piece);
-    add_divided_interfaces(mesh, pieces, piece, zone);
-    add_cut_interfaces(pieces, number, zone);
+    add_divided_interfaces(mesh, pieces, at, piece, zone);
+    add_cut_interfaces(pieces, at, number, zone);
     cut.zones.push_back(std::move(zone));
   }
   return cut;
 }
 
-template std::vector<Box<2>> cut_box(const Box<2>&, int, int);
-template std::vector<Box<3>> cut_box(const Box<3>&, int, int);
 template MultiblockMesh<2> cut_blocks(const MultiblockMesh<2>&, int, int);
 template MultiblockMesh<3> cut_blocks(const MultiblockMesh<3>&, int, int);
 

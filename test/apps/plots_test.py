@@ -18,7 +18,7 @@ SKIPPED = 77
 SYSTEM_PYTHON = "/usr/bin/python3"
 ROOT = Path(__file__).resolve().parents[2]
 PLOTS = ROOT / "apps" / "plots"
-FIGURES = ["mesh", "pressure", "pk", "aerodynamic_matrix", "convergence"]
+FIGURES = ["mesh", "pressure", "loops", "pk", "aerodynamic_matrix", "convergence"]
 
 
 def png_size(path):
@@ -52,7 +52,7 @@ class Plots(unittest.TestCase):
             self.assertGreater(path.stat().st_size, 40_000, name)  # an empty frame of this size takes 10 000
 
     def test_draws_only_what_is_there(self):
-        for name in ("pk.csv", "aerodynamic_matrix.csv", "result.json", "case.toml"):
+        for name in ("loads.csv", "pk.csv", "aerodynamic_matrix.csv", "result.json", "case.toml"):
             (self.folder / name).unlink()
         run = self.plot()
         self.assertEqual(run.returncode, 0, run.stderr)
@@ -80,6 +80,16 @@ class Plots(unittest.TestCase):
         self.assertEqual(run.returncode, 1)
         self.assertIn("nothing to draw", run.stderr)
         self.assertFalse((self.folder / "plots").exists())
+
+    def test_curve_of_a_loop_passes_through_the_instances(self):
+        sys.path.insert(0, str(PLOTS))
+        sys.dont_write_bytecode = True
+        import numpy as np
+        from loops import series
+        phases = 2.0 * np.pi * np.arange(5) / 5
+        wanted = lambda theta: 0.3 + np.sin(theta) - 0.2 * np.cos(2.0 * theta)
+        at = np.array([0.0, 1.0, 4.4])
+        np.testing.assert_allclose(series(wanted(phases), at), wanted(at), atol=1e-14)
 
     def test_sonic_pressure_coefficient(self):
         sys.path.insert(0, str(PLOTS))

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "test/flow/every_scheme.hpp"
 #include "test/flow/flow_case.hpp"
 
 namespace wingbeat {
@@ -12,12 +13,15 @@ const std::vector<MotionState> motions{{0.03, 0.02, -0.01}, {-0.05, 0.04, 0.03},
 template <int Dim>
 void expect_uniform_flow_stays_uniform(MultiblockMesh<Dim> mesh) {
   FlowCase<Dim> c(with_all_boundaries(std::move(mesh), BoundaryType::farfield), 0.8, 3.0);
-  FlowEquations<Dim> flow(c.domain, c.model, TimeSpectral(1));
-  std::vector<double> r(flow.state_count());
-  flow.residual(flow.uniform_state(), motions, 0.21, r);
-  double largest = 0.0;
-  for (double value : r) largest = std::max(largest, std::abs(value));
-  EXPECT_LE(c.comm.max(largest), 1e-12);
+  for (const auto& [name, scheme] : every_scheme()) {
+    c.model.scheme = scheme;
+    FlowEquations<Dim> flow(c.domain, c.model, TimeSpectral(1));
+    std::vector<double> r(flow.state_count());
+    flow.residual(flow.uniform_state(), motions, 0.21, r);
+    double largest = 0.0;
+    for (double value : r) largest = std::max(largest, std::abs(value));
+    EXPECT_LE(c.comm.max(largest), 1e-12) << name;
+  }
 }
 
 TEST(FlowEquations, UniformFlowStaysUniformOnAPitchingAndPlungingMesh) {
@@ -33,24 +37,28 @@ TEST(FlowEquations, UniformFlowStaysUniformOnAPitchingAndPlungingMesh) {
 template <int Dim>
 void expect_any_uniform_flow_stays_uniform_inside(MultiblockMesh<Dim> mesh) {
   FlowCase<Dim> c(with_all_boundaries(std::move(mesh), BoundaryType::farfield), 0.8, 3.0);
-  FlowEquations<Dim> flow(c.domain, c.model, TimeSpectral(1));
   FlowModel<Dim, double> other = c.model;
   other.freestream.mach = 0.3;
   other.freestream.angle_cosine = 0.0;
   other.freestream.angle_sine = 1.0;
-  std::vector<double> r(flow.state_count());
-  flow.residual(FlowEquations<Dim>(c.domain, other, TimeSpectral(1)).uniform_state(), motions, 0.21, r);
-  double largest = 0.0;
-  for (const auto& block : c.domain.blocks())
-    for_each(box_of<Dim>(block.geometry.layout.extents), [&](const Index<Dim>& cell) {
-      const auto& layout = block.geometry.layout;
-      const auto o = layout.offset(cell);
-      for (const BoundaryFace& face : block.boundary)
-        if (face.first == o) return;
-      const auto at = static_cast<std::size_t>(block.number[static_cast<std::size_t>(o)]) * state_size<Dim>;
-      for (std::size_t v = 0; v < state_size<Dim>; ++v) largest = std::max(largest, std::abs(r[at + v]));
-    });
-  EXPECT_LE(c.comm.max(largest), 1e-12);
+  const auto uniform = FlowEquations<Dim>(c.domain, other, TimeSpectral(1)).uniform_state();
+  for (const auto& [name, scheme] : every_scheme()) {
+    c.model.scheme = scheme;
+    FlowEquations<Dim> flow(c.domain, c.model, TimeSpectral(1));
+    std::vector<double> r(flow.state_count());
+    flow.residual(uniform, motions, 0.21, r);
+    double largest = 0.0;
+    for (const auto& block : c.domain.blocks())
+      for_each(box_of<Dim>(block.geometry.layout.extents), [&](const Index<Dim>& cell) {
+        const auto& layout = block.geometry.layout;
+        const auto o = layout.offset(cell);
+        for (const BoundaryFace& face : block.boundary)
+          if (face.first == o) return;
+        const auto at = static_cast<std::size_t>(block.number[static_cast<std::size_t>(o)]) * state_size<Dim>;
+        for (std::size_t v = 0; v < state_size<Dim>; ++v) largest = std::max(largest, std::abs(r[at + v]));
+      });
+    EXPECT_LE(c.comm.max(largest), 1e-12) << name;
+  }
 }
 
 TEST(FlowEquations, AnyUniformFlowStaysUniformAwayFromTheFarField) {
@@ -91,8 +99,9 @@ std::vector<double> dual_tangent(const FlowCase<Dim>& c, const TimeSpectral& tim
 }
 
 template <int Dim>
-void expect_exact_jacobian(MultiblockMesh<Dim> mesh, double smoothing) {
-  const FlowCase<Dim> c(std::move(mesh), 0.75, 1.5, smoothing);
+void expect_exact_jacobian(MultiblockMesh<Dim> mesh, const Scheme& scheme, bool is_smooth = true) {
+  FlowCase<Dim> c(std::move(mesh), 0.75, 1.5);
+  c.model.scheme = scheme;
   const TimeSpectral time(1);
   FlowEquations<Dim> flow(c.domain, c.model, time);
   const auto w = disturbed_state(c, flow, 0.05, 1);
@@ -113,7 +122,7 @@ void expect_exact_jacobian(MultiblockMesh<Dim> mesh, double smoothing) {
   for (std::size_t i = 0; i < w.size(); ++i) plus[i] = w[i] + h * dw[i], minus[i] = w[i] - h * dw[i];
   flow.residual(plus, motions, kappa, r_plus);
   flow.residual(minus, motions, kappa, r_minus);
-  if (smoothing > 0.0) {
+  if (is_smooth) {
     for (std::size_t i = 0; i < w.size(); ++i)
       difference[i] = (r_plus[i] - r_minus[i]) / (2 * h) - tangent[i];
     EXPECT_LE(global_norm(c.comm, difference), 1e-6 * size);
@@ -127,12 +136,19 @@ void expect_exact_jacobian(MultiblockMesh<Dim> mesh, double smoothing) {
 }
 
 TEST(FlowEquations, JacobianIsThatOfTheWholeResidual) {
-  for (double smoothing : {1.0, 0.0}) {
-    expect_exact_jacobian<2>(section_mesh("naca0012", 32, 8), smoothing);
-    expect_exact_jacobian<2>(section_mesh("naca0012", 32, 8, 6), smoothing);
-    expect_exact_jacobian<2>(bent_box<2>({5, 1}), smoothing);
-    expect_exact_jacobian<3>(cut_blocks<3>(bent_box<3>({5, 4, 6}), 2), smoothing);
+  for (const auto& [name, scheme] : every_scheme()) {
+    SCOPED_TRACE(name);
+    expect_exact_jacobian<2>(section_mesh("naca0012", 32, 8), scheme);
+    expect_exact_jacobian<2>(section_mesh("naca0012", 32, 8, 6), scheme);
+    expect_exact_jacobian<2>(bent_box<2>({5, 1}), scheme);
+    expect_exact_jacobian<3>(cut_blocks<3>(bent_box<3>({5, 4, 6}), 2), scheme);
   }
+}
+
+TEST(FlowEquations, JacobianIsThatOfTheWholeResidualWithClassicalSwitches) {
+  const JstScheme classical{0.25, 1.0 / 64.0, 0.0};
+  expect_exact_jacobian<2>(section_mesh("naca0012", 32, 8, 6), classical, false);
+  expect_exact_jacobian<3>(cut_blocks<3>(bent_box<3>({5, 4, 6}), 2), classical, false);
 }
 
 TEST(FlowEquations, MotionGradientsMatchDifferences) {

@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "core/io/error.hpp"
+#include "core/mesh/coarsen.hpp"
 #include "core/mesh/conformal_omesh.hpp"
+#include "core/mesh/cut_box.hpp"
 #include "core/mesh/mesh_check.hpp"
 
 namespace wingbeat {
@@ -84,6 +86,38 @@ TEST(CutBlocks, PiecesKeepTheirMinimumWidthAsFarAsTheyFit) {
     EXPECT_EQ(cells, 15u * 16u);
   }
   EXPECT_THROW(cut_box<2>({{0, 0}, {15, 16}}, 26, 3), InputError);
+}
+
+// Levels of every second node that a mesh allows.
+int levels(MultiblockMesh<2> mesh) {
+  int count = 0;
+  for (; auto coarse = coarsened(mesh, 1); ++count) mesh = std::move(*coarse);
+  return count;
+}
+
+TEST(CutBlocks, PiecesCanBeHalvedWhereFivePercentOfUnevennessAllowIt) {
+  const auto omesh = [](int around, int normal, int blocks) {
+    return conformal_omesh(make_airfoil("naca0012"), {.around = around, .normal = normal, .blocks = blocks});
+  };
+  EXPECT_EQ(levels(omesh(250, 50, 1)), 1);
+  const auto halves = omesh(250, 50, 2);  // 125 is odd
+  EXPECT_EQ(halves.zones[0].cells[0] + halves.zones[1].cells[0], 250);
+  EXPECT_EQ(std::abs(halves.zones[0].cells[0] - halves.zones[1].cells[0]), 2);
+  EXPECT_EQ(levels(halves), 1);
+  EXPECT_EQ(levels(omesh(256, 64, 4)), 6);  // squares of 64
+  EXPECT_EQ(levels(omesh(256, 64, 3)), 3);  // 80 + 88 + 88; 80 + 80 + 96 is too uneven
+  // Pieces of two and of one column in eight: a cut at even planes is too uneven.
+  EXPECT_EQ(levels(omesh(40, 8, 16)), 0);
+}
+
+TEST(CutBlocks, PiecesForMultigridKeepTheMinimumWidth) {
+  const auto mesh = conformal_omesh(make_airfoil("naca0012"), {.around = 64, .normal = 16});
+  for (const int width : {1, 3, 5, 8}) {
+    for (const auto& zone : cut_blocks(mesh, 8, width).zones) {
+      EXPECT_GE(zone.cells[0], width);
+      EXPECT_GE(zone.cells[1], width);
+    }
+  }
 }
 
 // Nodes at integer coordinates of a box of `cells` cells; index d of the zone runs along

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/spectral/inverse_modulus.hpp"
+#include "flow/flow_equations.hpp"
+#include "flow/residual_smoothing.hpp"
+
+namespace wingbeat {
+
+struct RungeKuttaOptions {
+  double cfl = 6.0;
+  double smoothing = 2.0;  // CFL number over that of unsmoothed residuals; 0: no smoothing
+};
+
+// Five-stage Runge-Kutta steps in pseudo-time of all instances at once (eq:runge-kutta):
+//   Omega dw/dtau = -(R(w) - source),
+// with local time steps, dissipation renewed at stages 1, 3 and 5, residuals smoothed implicitly,
+// and every harmonic held back in each cell as its own frequency demands (eq:inverse-modulus), so
+// that neither frequency nor number of harmonics restricts the step of the others.
+template <int Dim>
+class RungeKutta {
+ public:
+  explicit RungeKutta(FlowEquations<Dim>& flow);
+
+  // Advances w by one step; `source` is empty (none) or has the size of w. Returns this rank's sum
+  // of squares of R(w) - source before the step. Collective.
+  double step(std::span<double> w, std::span<const MotionState> motions, double kappa,
+              std::span<const double> source, const RungeKuttaOptions& options);
+
+ private:
+  void set_time_steps(std::span<const double> w, std::span<const MotionState> motions,
+                      const RungeKuttaOptions& options);
+  void evaluate_stage(std::size_t stage, std::span<const double> w, std::span<const MotionState> motions,
+                      double kappa, std::span<const double> source);
+  void limit_harmonics(double kappa);
+
+  FlowEquations<Dim>& flow_;
+  ResidualSmoothing<Dim> smoothing_;
+  InverseModulus inverse_modulus_;
+  std::vector<double> time_step_;  // dtau / Omega: [owned cell], the same at all instances
+  std::vector<double> start_;      // w at the start of the step
+  std::vector<double> residual_, dissipation_, renewed_;
+};
+
+}  // namespace wingbeat
