@@ -49,6 +49,31 @@ std::string coupled_advice(SolveStatus status, const SolverSettings& settings) {
   return "";
 }
 
+std::string staggered_advice(SolveStatus status, const StaggeredSettings& settings) {
+  switch (status) {
+    case SolveStatus::converged:
+      return "";
+    case SolveStatus::iteration_limit:
+      return fmt::format(
+          "flow and structure need more than staggered.max_iterations = {} turns; allow more and continue "
+          "with "
+          "--restart solution.cgns, or let Newton finish with solver.flow_method = runge_kutta_newton",
+          settings.max_iterations);
+    case SolveStatus::stalled:
+      return "flow and structure took turns without coming nearer; raise staggered.flow_cycles, start from "
+             "the "
+             "solution of a smaller amplitude with --restart, or use solver.method = coupled";
+    case SolveStatus::diverged:
+      return fmt::format(
+          "the staggered iteration diverged {} times; lower pseudo_time.cfl, raise staggered.flow_cycles, or "
+          "start from the solution of a smaller amplitude with --restart",
+          settings.max_recoveries + 1);
+    case SolveStatus::interrupted:
+      return "stopped by a signal or --walltime; continue with --restart solution.cgns";
+  }
+  return "";
+}
+
 std::string forced_advice(SolveStatus status, const SolverSettings& settings) {
   switch (status) {
     case SolveStatus::converged:

@@ -10,6 +10,7 @@ namespace wingbeat {
 // Why a solve ended as it did and what to change, in a sentence; empty where it converged.
 std::string steady_advice(SolveStatus status, const SolverSettings& settings);
 std::string coupled_advice(SolveStatus status, const SolverSettings& settings);
+std::string staggered_advice(SolveStatus status, const StaggeredSettings& settings);
 std::string forced_advice(SolveStatus status, const SolverSettings& settings);
 // For a recipe that says nothing itself.
 std::string general_advice(SolveStatus status);

@@ -14,8 +14,11 @@ void CaseSettings::describe(SettingRegistry& registry) {
   registry.add_section(
       "structure", "The pitch-plunge section, made dimensionless by semichord and omega_alpha.", structure);
   registry.add_section("flutter", "The flutter boundary and its linear start.", flutter);
+  registry.add_section("lco", "Which limit cycles are computed.", lco);
   registry.add_section("pk", "The table of frequency and damping against reduced velocity.", pk);
   registry.add_section("solver", "How the equations are solved, and how far.", solver);
+  registry.add_section("pseudo_time", "Runge-Kutta multigrid cycles of the flow.", pseudo_time);
+  registry.add_section("staggered", "How flow and structure take turns in the staggered method.", staggered);
 }
 
 ResolvedCase resolve_case(const std::string& text, const std::string& path,
@@ -28,6 +31,9 @@ ResolvedCase resolve_case(const std::string& text, const std::string& path,
   resolved.settings.describe(registry);
   file.apply(registry, used_sections, reader);
   resolved.text = resolved_case(registry);
+  for (const auto& section : registry.sections())
+    for (const auto& key : section.keys())
+      if (!key.source.empty()) resolved.sources[section.name() + "." + key.name] = key.source;
   return resolved;
 }
 

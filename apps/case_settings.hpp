@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -9,8 +10,11 @@
 #include "core/spectral/time_settings.hpp"
 #include "flow/flow_settings.hpp"
 #include "flow/pitch_settings.hpp"
+#include "flow/pseudo_time_settings.hpp"
 #include "partition/partition_settings.hpp"
 #include "structure/flutter_settings.hpp"
+#include "structure/lco_settings.hpp"
+#include "structure/staggered_settings.hpp"
 #include "structure/structure_settings.hpp"
 
 namespace wingbeat {
@@ -24,16 +28,23 @@ struct CaseSettings {
   TimeSettings time;
   StructureSettings structure;
   FlutterSettings flutter;
+  LcoSettings lco;
   PkSettings pk;
   SolverSettings solver;
+  PseudoTimeSettings pseudo_time;
+  StaggeredSettings staggered;
 
   void describe(SettingRegistry& registry);
 };
+
+// Where the case gives its keys: "section.key" -> "case.toml:7" or "command line".
+using KeySources = std::map<std::string, std::string>;
 
 // A case as read, and as text that reads back to the same values.
 struct ResolvedCase {
   CaseSettings settings;
   std::string text;
+  KeySources sources;
 };
 
 // Reads a case from its text, its path as the user gave it, and `section.key=value` overrides.

@@ -17,6 +17,7 @@ namespace wingbeat {
 struct Context {
   const Comm& comm;
   const CaseSettings& settings;
+  const KeySources& sources;
   std::filesystem::path output;                  // folder of the results; exists
   std::optional<std::filesystem::path> restart;  // solution to start from
   int planned_ranks;                             // of a partition: --ranks, or those that run
@@ -24,6 +25,12 @@ struct Context {
   Timer& timer;
   Result& result;           // findings and message are the recipe's; written by rank 0 afterwards
   const StopRequest& stop;  // poll it where a checkpoint can be written
+
+  // "case.toml:7: section.key", the head of a message about a key found wrong once the run has begun.
+  std::string place(const std::string& key) const {
+    const auto found = sources.find(key);
+    return found == sources.end() ? key : found->second + ": " + key;
+  }
 };
 
 }  // namespace wingbeat

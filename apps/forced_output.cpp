@@ -64,15 +64,17 @@ void report_forced_loads(Context& context, const TimeSpectral& time, const std::
                                       {"residual", result.residual},
                                       {"iterations", result.iterations},
                                       {"linear_iterations", result.linear_iterations},
-                                      {"factorizations", result.factorizations}};
+                                      {"factorizations", result.factorizations},
+                                      {"cycles", result.cycles}};
 
   context.log.line("\nloads f = sum of Re(f_n e^(i n theta)), pitch a sine at n = 1");
   context.log.line("{:>3}  {:^23}  {:^23}  {:^23}", "n", "cl", "cd", "cm");
   const auto text = [](Complex c) { return fmt::format("{:+.7f} {:+.7f}i", c.real(), c.imag()); };
   for (std::size_t n = 0; n < cl.size(); ++n)
     context.log.line("{:3}  {:>23}  {:>23}  {:>23}", n, text(cl[n]), text(cd[n]), text(cm[n]));
-  context.log.line("residual {:.1e}; {} Newton, {} Krylov, {} new factorizations\n", result.residual,
-                   result.iterations, result.linear_iterations, result.factorizations);
+  context.log.line("residual {:.1e}; {} cycles, {} Newton, {} Krylov, {} new factorizations\n",
+                   result.residual, result.cycles, result.iterations, result.linear_iterations,
+                   result.factorizations);
 }
 
 void report_derivatives(Context& context, const Eigen::Matrix2cd& forced,

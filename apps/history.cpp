@@ -27,6 +27,17 @@ void History::coupled(const std::string& stage, const NewtonIteration& i, const 
               reduced_velocity, static_cast<long>(i.linear_iterations), seconds()});
 }
 
+void History::cycle(const std::string& stage, const PseudoTimeIteration& i) {
+  table_.add({stage, static_cast<long>(i.cycle), i.residual, std::string(), std::string(), std::string(),
+              std::string(), std::string(), 0L, seconds()});
+}
+
+void History::staggered(const std::string& stage, const StaggeredIteration& i) {
+  const AeroelasticResiduals& r = i.residuals;
+  table_.add({stage, static_cast<long>(i.iteration), r.flow, r.structure, r.phase, r.energy, i.omega,
+              i.reduced_velocity, 0L, seconds()});
+}
+
 void History::forced(const std::string& stage, const ForcedFlowIteration& i) {
   table_.add({stage, static_cast<long>(i.iteration), i.residual, std::string(), std::string(), std::string(),
               std::string(), std::string(), static_cast<long>(i.linear_iterations), seconds()});

@@ -7,8 +7,10 @@
 #include "apps/context.hpp"
 #include "core/io/csv.hpp"
 #include "flow/forced_flow.hpp"
+#include "flow/pseudo_time.hpp"
 #include "flow/steady_sequence.hpp"
 #include "structure/aeroelastic_problem.hpp"
+#include "structure/staggered.hpp"
 
 namespace wingbeat {
 
@@ -20,6 +22,8 @@ class History {
   void steady(const std::string& mesh, const PseudoTransientIteration& iteration);
   void coupled(const std::string& stage, const NewtonIteration& iteration,
                const AeroelasticResiduals& residuals, double omega, double reduced_velocity);
+  void cycle(const std::string& stage, const PseudoTimeIteration& iteration);
+  void staggered(const std::string& stage, const StaggeredIteration& iteration);
   void forced(const std::string& stage, const ForcedFlowIteration& iteration);
   // Replaces history.csv; rank 0.
   void write() const;

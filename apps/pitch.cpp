@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "apps/advice.hpp"
 #include "apps/case_mesh.hpp"
+#include "apps/flow_cycles.hpp"
 #include "apps/flow_setup.hpp"
 #include "apps/forced_output.hpp"
 #include "apps/history.hpp"
@@ -10,6 +12,7 @@
 #include "apps/steady_stage.hpp"
 #include "apps/verbs.hpp"
 #include "core/io/progress.hpp"
+#include "core/spectral/mean_instance.hpp"
 #include "structure/forced_matrix.hpp"
 #include "structure/linear_flutter.hpp"
 
@@ -45,9 +48,8 @@ AeroelasticState moved_state(const CaseSettings& settings, const TimeSpectral& t
 }
 
 // Newton with a line of progress and of history each iteration.
-ForcedFlowResult solve_with_progress(Context& context, FlowLevel<2>& level, FlowEquations<2>& flow,
-                                     ForcedFlowStart& start, const std::vector<MotionState>& motions,
-                                     History& history) {
+ForcedFlowResult solve_with_progress(Context& context, FlowEquations<2>& flow, ForcedFlowStart& start,
+                                     const std::vector<MotionState>& motions, History& history) {
   const auto part = context.timer.measure("newton");
   const ForcedFlowOptions options = forced_options(context.settings.solver);
   Progress progress(context.log, "forced motion", {"iter", "|R|", "step", "linear"});
@@ -64,12 +66,39 @@ ForcedFlowResult solve_with_progress(Context& context, FlowLevel<2>& level, Flow
                               });
 }
 
+ForcedFlowResult solve_by_cycles(Context& context, const FlowLevel<2>& level, FlowEquations<2>& flow,
+                                 std::vector<double>& w, const std::vector<MotionState>& motions,
+                                 History& history) {
+  const SolverSettings& solver = context.settings.solver;
+  FlowCycles cycles(context, level, flow);
+  if (w.empty()) w = cycles.start(motions, kappa(context.settings));
+  const double tolerance = solver.ends_with_newton() ? std::max(solver.newton_switch, solver.flow_tolerance)
+                                                     : solver.flow_tolerance;
+  const PseudoTimeResult result =
+      cycles.solve(w, motions, kappa(context.settings), tolerance, "pitch", history);
+  context.result.message = cycles_advice(result.status, tolerance, context.settings.pseudo_time);
+  ForcedFlowResult forced{.status = result.status, .residual = result.residual};
+  forced.cycles = result.cycles;
+  return forced;
+}
+
 SolveStatus solve_forced(Context& context, FlowLevel<2>& level, const TimeSpectral& time,
                          ForcedFlowStart start, History& history) {
   const CaseSettings& settings = context.settings;
+  const SolverSettings& solver = settings.solver;
   FlowEquations<2> flow(level.domain, level.steady.model(), time);
   const std::vector<MotionState> motions = motions_of(forced_motion(settings.pitch), time, kappa(settings));
-  const ForcedFlowResult result = solve_with_progress(context, level, flow, start, motions, history);
+  const bool by_cycles = solver.flow_solver() != "newton";
+  ForcedFlowResult result;
+  if (by_cycles) result = solve_by_cycles(context, level, flow, start.w, motions, history);
+  if (!by_cycles || (result.status == SolveStatus::converged && solver.ends_with_newton())) {
+    if (!start.factors.mean)
+      start.factors = unfactored(level.comm(), level.subdomain, state_size<2>, time.harmonics());
+    const int cycles = result.cycles;
+    result = solve_with_progress(context, flow, start, motions, history);
+    result.cycles = cycles;
+    context.result.message = forced_advice(result.status, solver);
+  }
   history.write();
   const auto part = context.timer.measure("output");
   std::vector<Coefficients> loads;
@@ -77,16 +106,17 @@ SolveStatus solve_forced(Context& context, FlowLevel<2>& level, const TimeSpectr
     loads.push_back(coefficients(settings, instance, motions[n++].pitch));
   write_solution_files(context, level, moved_state(settings, time, std::move(start.w)));
   report_forced_loads(context, time, loads, result);
-  context.result.message = forced_advice(result.status, settings.solver);
   return result.status;
 }
 
-// Q(k) by small forced motions beside the linearized one, about the level's steady flow.
-void compute_derivatives(Context& context, FlowLevel<2>& level, const TimeSpectral& time) {
+// Q(k) by small forced motions beside the linearized one, about the level's steady flow. With a single
+// harmonic the second, of the square of the amplitude, would be taken for the first.
+void compute_derivatives(Context& context, FlowLevel<2>& level) {
   const auto part = context.timer.measure("derivatives");
   const CaseSettings& settings = context.settings;
   const double k = *settings.pitch.reduced_frequency;
   const SectionKinematics kinematics = section_kinematics(settings);
+  const TimeSpectral time(std::max(2, settings.time.harmonics));
   ForcedMatrixOptions options;
   options.amplitude = settings.pitch.derivative_amplitude_deg * std::numbers::pi / 180.0;
   options.flow = forced_options(settings.solver);
@@ -94,15 +124,6 @@ void compute_derivatives(Context& context, FlowLevel<2>& level, const TimeSpectr
   const Eigen::Matrix2cd forced = forced_aerodynamic_matrix<2>(level, time, kinematics, k, options);
   LinearizedSection<2> section(level, kinematics, {level.w, std::vector<double>(4, 0.0), 0.0, 1.0}, 1e-10);
   report_derivatives(context, forced, section.aerodynamic_matrix(k));
-}
-
-// Mean over the instances of a field.
-std::vector<double> mean_instance(const std::vector<double>& w, const TimeSpectral& time) {
-  const std::vector<std::complex<double>> harmonics = time.harmonics_of(w);
-  std::vector<double> mean;
-  for (std::size_t i = 0; i < harmonics.size() / static_cast<std::size_t>(time.harmonics() + 1); ++i)
-    mean.push_back(harmonics[i].real());
-  return mean;
 }
 
 }  // namespace
@@ -151,18 +172,19 @@ SolveStatus run_pitch(Context& context) {
       start.w = std::move(state.w);
     }
   }
-  const bool needs_steady = start.w.empty() || settings.pitch.derivatives;
+  // Cycles start by full multigrid, Newton from the steady flow and its linear response.
+  const bool by_cycles = settings.solver.flow_solver() != "newton";
+  const bool needs_steady = (start.w.empty() && !by_cycles) || settings.pitch.derivatives;
   if (needs_steady) {
     const SolveStatus steady = run_steady_stage(context, levels, history);
     if (steady != SolveStatus::converged) return steady;
   }
-  if (start.w.empty()) {
+  if (start.w.empty() && !by_cycles) {
     const auto part = context.timer.measure("linear response");
     start = linear_start<2>(level, time, forced_motion(settings.pitch), kappa(settings));
   }
   const SolveStatus status = solve_forced(context, level, time, std::move(start), history);
-  if (settings.pitch.derivatives && status == SolveStatus::converged)
-    compute_derivatives(context, level, time);
+  if (settings.pitch.derivatives && status == SolveStatus::converged) compute_derivatives(context, level);
   return status;
 }
 

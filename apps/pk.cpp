@@ -78,7 +78,7 @@ SolveStatus run_pk(Context& context) {
   FlowLevels<2> levels = make_levels<2>(context, make_plane_mesh(settings.mesh));
   FlowLevel<2>& level = *levels.back();
   History history(context);
-  const SolveStatus steady = run_steady_stage(context, levels, history);
+  const SolveStatus steady = run_steady_stage(context, levels, history, true);
   if (steady != SolveStatus::converged) return steady;
 
   // Where the section carries lift, Q(k) is of the undeflected section: a table for all speeds.

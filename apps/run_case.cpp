@@ -117,6 +117,7 @@ int execute(const Comm& comm, const CommandLine& command, Result& result, Timer&
   const StopRequest stop(comm, command.walltime);
   Context context{.comm = comm,
                   .settings = resolved.settings,
+                  .sources = resolved.sources,
                   .output = command.output,
                   .restart = command.restart,
                   .planned_ranks = command.ranks.value_or(comm.size()),

@@ -1,8 +1,10 @@
 #include "apps/steady_stage.hpp"
 
+#include <algorithm>
 #include <memory>
 
 #include "apps/advice.hpp"
+#include "apps/flow_cycles.hpp"
 #include "apps/flow_setup.hpp"
 #include "apps/solution_output.hpp"
 #include "core/io/progress.hpp"
@@ -10,13 +12,26 @@
 namespace wingbeat {
 namespace {
 
-PseudoTransientResult solve_with_progress(Context& context, FlowLevels<2>& levels, const MotionState& motion,
-                                          History& history) {
+struct SteadyCost {
+  int iterations = 0;
+  int linear_iterations = 0;
+  int factorizations = 0;
+  int cycles = 0;
+};
+struct SteadyOutcome {
+  SolveStatus status = SolveStatus::converged;
+  double residual = 1.0;
+  SteadyCost cost;
+};
+
+// Newton from mesh to mesh.
+SteadyOutcome solve_by_newton(Context& context, FlowLevelRange<2> levels, const MotionState& motion,
+                              History& history) {
   const auto part = context.timer.measure("steady");
   const PseudoTransientOptions options = steady_options(context.settings.solver);
   std::unique_ptr<Progress> progress;
   std::size_t shown = levels.size();
-  PseudoTransientResult result =
+  const PseudoTransientResult result =
       solve_steady<2>(levels, motion, options, [&](std::size_t level, const PseudoTransientIteration& i) {
         const std::string mesh = mesh_size_text<2>(levels[level]->mesh);
         if (level != shown) {
@@ -33,20 +48,43 @@ PseudoTransientResult solve_with_progress(Context& context, FlowLevels<2>& level
             converged_fraction(1.0, i.residual, options.tolerance));
         return !context.stop.is_set();
       });
-  return result;
+  return {result.status,
+          result.residual,
+          {result.iterations, result.linear_iterations, result.factorizations, 0}};
+}
+
+// Cycles on the finest mesh alone, from the solution of the next coarser one where there is one.
+SteadyOutcome solve_by_cycles(Context& context, FlowLevels<2>& levels, const MotionState& motion,
+                              History& history) {
+  const auto part = context.timer.measure("steady");
+  FlowLevel<2>& level = *levels.back();
+  const SolverSettings& solver = context.settings.solver;
+  FlowCycles cycles(context, level, level.steady);
+  const std::vector<MotionState> motions{motion};
+  if (level.w.empty()) {
+    const bool has_coarse = levels.size() > 1 && !levels[levels.size() - 2]->w.empty();
+    const auto& coarse = levels[levels.size() - (has_coarse ? 2 : 1)];
+    level.w = has_coarse ? transferred_state<2>(*coarse, coarse->w, level) : cycles.start(motions, 0.0);
+  }
+  const double tolerance = solver.ends_with_newton() ? std::max(solver.newton_switch, solver.steady_tolerance)
+                                                     : solver.steady_tolerance;
+  const PseudoTimeResult result = cycles.solve(level.w, motions, 0.0, tolerance, "steady flow", history);
+  context.result.message = cycles_advice(result.status, tolerance, context.settings.pseudo_time);
+  return {result.status, result.residual, {0, 0, 0, result.cycles}};
 }
 
 void report_steady(Context& context, FlowLevel<2>& level, const MotionState& motion,
-                   const PseudoTransientResult& solved) {
+                   const SteadyOutcome& solved) {
   const Loads<double> loads = level.steady.loads(level.w, std::span<const MotionState>(&motion, 1))[0];
   const Coefficients c = coefficients(context.settings, loads, motion.pitch);
   context.result.findings["steady"] = {{"cl", c.cl},
                                        {"cd", c.cd},
                                        {"cm", c.cm},
                                        {"residual", solved.residual},
-                                       {"iterations", solved.iterations},
-                                       {"linear_iterations", solved.linear_iterations},
-                                       {"factorizations", solved.factorizations}};
+                                       {"iterations", solved.cost.iterations},
+                                       {"linear_iterations", solved.cost.linear_iterations},
+                                       {"factorizations", solved.cost.factorizations},
+                                       {"cycles", solved.cost.cycles}};
   context.log.line("\ncl = {:.8f}   cd = {:.8f}   cm = {:.8f}   residual {:.1e}", c.cl, c.cd, c.cm,
                    solved.residual);
 }
@@ -57,12 +95,28 @@ MotionState at_rest(const CaseSettings& settings) {
   return {section_kinematics(settings).mean_pitch, 0.0, 0.0};
 }
 
-SolveStatus run_steady_stage(Context& context, FlowLevels<2>& levels, History& history) {
+SolveStatus run_steady_stage(Context& context, FlowLevels<2>& levels, History& history,
+                             bool needs_coarse_levels) {
   FlowLevel<2>& level = *levels.back();
+  const SolverSettings& solver = context.settings.solver;
   const MotionState motion = at_rest(context.settings);
-  const PseudoTransientResult solved = solve_with_progress(context, levels, motion, history);
+  const FlowLevelRange<2> all(levels);
+  SteadyOutcome solved;
+  if (solver.flow_solver() == "newton") {
+    solved = solve_by_newton(context, all, motion, history);
+    context.result.message = steady_advice(solved.status, solver);
+  } else {
+    if (needs_coarse_levels && levels.size() > 1)
+      solve_by_newton(context, all.first(levels.size() - 1), motion, history);
+    solved = solve_by_cycles(context, levels, motion, history);
+    if (solved.status == SolveStatus::converged && solver.ends_with_newton()) {
+      const int cycles = solved.cost.cycles;
+      solved = solve_by_newton(context, all.last(1), motion, history);
+      solved.cost.cycles = cycles;
+      context.result.message = steady_advice(solved.status, solver);
+    }
+  }
   history.write();
-  context.result.message = steady_advice(solved.status, context.settings.solver);
   if (level.w.empty()) return solved.status;
   if (solved.status == SolveStatus::interrupted)
     context.result.message = "stopped by a signal or --walltime; continue with --restart solution.cgns";

@@ -15,12 +15,14 @@ namespace wingbeat {
 SolveStatus run_steady(Context& context);
 SolveStatus run_pitch(Context& context);
 SolveStatus run_flutter(Context& context);
+SolveStatus run_lco(Context& context);
 SolveStatus run_pk(Context& context);
 SolveStatus run_mesh(Context& context);
 SolveStatus run_partition(Context& context);
 
 // What is wrong with a case for that verb beyond single sections: "section.key: ...", what to do.
 std::vector<std::string> pitch_faults(const CaseSettings& settings);
+std::vector<std::string> lco_faults(const CaseSettings& settings);
 
 // A verb of the command line that works on a case.
 struct Verb {

@@ -5,6 +5,8 @@
 
 #include "benchmarks/kernel_table.hpp"
 #include "benchmarks/section_flow.hpp"
+#include "flow/multigrid.hpp"
+#include "flow/spectral_radius.hpp"
 
 // CPU time of the kernels on one core. Options of Google Benchmark are understood, as
 // --benchmark_filter=residual.
@@ -15,15 +17,16 @@ struct Size {
   int around, normal;
   std::string name() const { return std::to_string(around) + "x" + std::to_string(normal); }
 };
-constexpr Size small{128, 32}, medium{250, 50}, large{512, 128};
+constexpr Size small{128, 32}, medium{250, 50}, halved{256, 64}, large{512, 128};
 
 // The flow is made when its benchmark runs, so that only what the filter selects is made.
 void add(const std::string& kernel, const Comm& comm, Size size, int harmonics,
-         const std::function<void(benchmark::State&, SectionFlow&)>& run) {
+         const std::function<void(benchmark::State&, SectionFlow&)>& run,
+         const Scheme& scheme = JstScheme{}) {
   std::string name = kernel + "/" + size.name();
   if (harmonics > 0) name += "/N_H=" + std::to_string(harmonics);
   benchmark::RegisterBenchmark(name.c_str(), [=, &comm](benchmark::State& state) {
-    SectionFlow flow(comm, size.around, size.normal, harmonics);
+    SectionFlow flow(comm, size.around, size.normal, harmonics, scheme);
     state.counters["cells"] = flow.cell_count() * static_cast<double>(flow.equations.instance_count());
     run(state, flow);
   })->Repetitions(5);
@@ -100,10 +103,67 @@ void solve(benchmark::State& state, SectionFlow& flow) {
   for (auto _ : state) factors.solver.apply(b, x);
 }
 
+// A stage's share of a whole step, time steps and coefficients of the smoothing included.
+void runge_kutta_stage(benchmark::State& state, SectionFlow& flow) {
+  RungeKutta<2> smoother(flow.equations);
+  const std::vector<double> start = flow.w;
+  state.counters["cells"].value *= 5.0;
+  for (auto _ : state) {
+    flow.w = start;
+    smoother.step(flow.w, flow.motions, flow.kappa, {}, {});
+  }
+}
+
+void residual_smoothing(benchmark::State& state, SectionFlow& flow) {
+  const int instances = static_cast<int>(flow.equations.instance_count());
+  ResidualSmoothing<2> smoothing(flow.level.domain);
+  smoothing.set_coefficients(
+      directional_radii<2>(flow.level.domain,
+                           std::span<const double>(flow.w).first(flow.level.domain.state_count()),
+                           flow.motions.front(), flow.equations.model().freestream.gamma),
+      1, RungeKuttaOptions{}.smoothing);
+  for (auto _ : state) smoothing.apply(flow.w, instances);
+}
+
+// To the next coarser mesh and back, as a cycle does once on each mesh.
+void grid_transfers(benchmark::State& state, SectionFlow& flow) {
+  const int instances = static_cast<int>(flow.equations.instance_count());
+  CoarseLevel<2> coarse(coarsened<2>(flow.level.mesh, flow.level.partition).value(), flow.equations.model(),
+                        flow.equations.time(), flow.level.domain);
+  std::vector<double> r(flow.w.size());
+  for (auto _ : state) {
+    coarse.transfer.restrict_mean(flow.w, coarse.w, instances);
+    coarse.transfer.restrict_sum(r, coarse.restricted, instances);
+    coarse.transfer.prolong_add(coarse.source, flow.w, instances);
+  }
+}
+
+void w_cycle(benchmark::State& state, SectionFlow& flow) {
+  const MultigridOptions options;
+  Multigrid<2> multigrid(flow.equations, {flow.level.mesh, flow.level.partition}, options);
+  const std::vector<double> start = flow.w;
+  for (auto _ : state) {
+    flow.w = start;
+    multigrid.cycle(flow.w, flow.motions, flow.kappa, options.runge_kutta);
+  }
+}
+
 void add_all(const Comm& comm) {
   for (const Size size : {medium, large}) add("residual", comm, size, 0, residual);
   add("residual", comm, medium, 1, residual);
+  add("residual, matrix", comm, medium, 0, residual, MatrixScheme{});
+  add("residual, CUSP", comm, medium, 0, residual, CuspScheme{});
+  add("residual, Roe", comm, medium, 0, residual, RoeScheme{});
+  add("residual, van Leer", comm, medium, 0, residual, VanLeerScheme{});
   add("time derivative", comm, medium, 1, time_derivative);
+  for (const int harmonics : {0, 1, 3}) {
+    add("Runge-Kutta stage", comm, halved, harmonics, runge_kutta_stage);
+    add("W cycle", comm, halved, harmonics, w_cycle);
+  }
+  add("Runge-Kutta stage", comm, large, 0, runge_kutta_stage);
+  add("W cycle", comm, large, 0, w_cycle);
+  add("residual smoothing", comm, halved, 0, residual_smoothing);
+  add("grid transfers", comm, halved, 0, grid_transfers);
   for (const Size size : {medium, large}) {
     add("jacobian", comm, size, 0, jacobian);
     add("product", comm, size, 0, product);

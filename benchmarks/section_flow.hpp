@@ -18,8 +18,8 @@ struct SectionFlow {
   double kappa = 0.3;
   std::vector<double> w;
 
-  SectionFlow(const Comm& comm, int around, int normal, int harmonics)
-      : level(comm, mesh(around, normal), {{1.4, 0.8, 1.0, 0.0}, {}}, {{{0.2, 0.0}}}, {}),
+  SectionFlow(const Comm& comm, int around, int normal, int harmonics, const Scheme& scheme = JstScheme{})
+      : level(comm, mesh(around, normal), {{1.4, 0.8, 1.0, 0.0}, scheme}, {{{0.2, 0.0}}}, {}),
         equations(level.domain, level.steady.model(), TimeSpectral(harmonics)),
         w(equations.uniform_state()) {
     for (std::size_t i = 0; i < equations.instance_count(); ++i)

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flow/cell_vector.hpp"
+
 namespace wingbeat {
 namespace {
 
@@ -65,32 +67,43 @@ void FlowEquations<Dim>::residual(std::span<const double> w, std::span<const Mot
 }
 
 template <int Dim>
-void FlowEquations<Dim>::balance_parts(std::span<const double> w, std::span<const MotionState> motions,
-                                       std::span<double> central, std::span<double> dissipation) {
+void FlowEquations<Dim>::stage_balance(std::span<const double> w, std::span<const MotionState> motions,
+                                       double renewed, std::span<double> dissipation, std::span<double> r) {
   fetch_ghosts(w);
   const std::size_t count = domain_.state_count();
   for (std::size_t i = 0; i < instance_count(); ++i)
-    balance_.evaluate_parts(w.subspan(i * count, count), ghosts_of(i), rigid_motion(motions[i]),
-                            central.subspan(i * count, count),
-                            dissipation.empty() ? dissipation : dissipation.subspan(i * count, count));
+    balance_.evaluate_stage(w.subspan(i * count, count), ghosts_of(i), rigid_motion(motions[i]), renewed,
+                            dissipation.subspan(i * count, count), r.subspan(i * count, count));
 }
 
 template <int Dim>
 void FlowEquations<Dim>::add_time_derivative(double scale, std::span<const double> w,
                                              std::span<double> r) const {
-  const std::size_t count = domain_.state_count();
-  const auto volumes = domain_.volumes();
+  const std::size_t count = domain_.state_count(), instances = instance_count();
+  if (instances == 1) return;
+  std::vector<double> weights;
   for (int row = 0; row < time_.instances(); ++row)
-    for (int column = 0; column < time_.instances(); ++column) {
-      const double weight = scale * time_.derivative(row, column);
-      if (weight == 0.0) continue;
-      double* out = r.data() + static_cast<std::size_t>(row) * count;
-      const double* in = w.data() + static_cast<std::size_t>(column) * count;
-      for (std::size_t c = 0; c < volumes.size(); ++c) {
-        const double factor = weight * volumes[c];
-        for (std::size_t v = 0; v < n; ++v) out[c * n + v] += factor * in[c * n + v];
+    for (int column = 0; column < time_.instances(); ++column)
+      weights.push_back(scale * time_.derivative(row, column));
+  // A few cells of all instances at a time: instances lie so far apart that their cells compete for
+  // the same lines of the cache.
+  constexpr std::size_t chunk = 16;
+  std::vector<CellVector<n>> states(instances * chunk);
+  const auto volumes = domain_.volumes();
+  for (std::size_t first = 0; first < volumes.size(); first += chunk) {
+    const std::size_t last = std::min(first + chunk, volumes.size());
+    for (std::size_t i = 0; i < instances; ++i)
+      for (std::size_t c = first; c < last; ++c)
+        states[i * chunk + c - first] = volumes[c] * load_cell<n>(w.data() + i * count + c * n);
+    for (std::size_t row = 0; row < instances; ++row)
+      for (std::size_t c = first; c < last; ++c) {
+        double* out = r.data() + row * count + c * n;
+        CellVector<n> sum = load_cell<n>(out);
+        for (std::size_t i = 0; i < instances; ++i)
+          sum += weights[row * instances + i] * states[i * chunk + c - first];
+        store_cell<n>(sum, out);
       }
-    }
+  }
 }
 
 template <int Dim>

@@ -35,10 +35,10 @@ class FlowEquations {
   // The following are collective. One motion an instance; kappa is the frequency on the flow's clock.
   void residual(std::span<const double> w, std::span<const MotionState> motions, double kappa,
                 std::span<double> r);
-  // The two parts of R less its time derivative, R = central - dissipation. An empty `dissipation` is
-  // not computed.
-  void balance_parts(std::span<const double> w, std::span<const MotionState> motions,
-                     std::span<double> central, std::span<double> dissipation);
+  // r = R less its time derivative, with a dissipation that moves by the share `renewed` to that of w
+  // (FluxBalance::evaluate_stage).
+  void stage_balance(std::span<const double> w, std::span<const MotionState> motions, double renewed,
+                     std::span<double> dissipation, std::span<double> r);
   // sum_m D_nm Omega w_m: the derivative of R with respect to kappa alone.
   void add_time_derivative(double scale, std::span<const double> w, std::span<double> r) const;
   std::vector<Loads<double>> loads(std::span<const double> w, std::span<const MotionState> motions);

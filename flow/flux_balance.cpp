@@ -1,5 +1,6 @@
 #include "flow/flux_balance.hpp"
 
+#include <algorithm>
 #include <type_traits>
 
 #include "flow/boundary.hpp"
@@ -12,6 +13,15 @@ namespace {
 // The number type a sweep computes with: several doubles at a time, or one dual.
 template <class S>
 using Sweep = std::conditional_t<std::is_same_v<S, double>, Pack, S>;
+
+// lanes<T> values, `stride` apart.
+template <class T, class S>
+T strided(const S* values, int stride) {
+  if constexpr (lanes<T> == 1)
+    return *values;
+  else
+    return T([&](auto lane) { return values[static_cast<int>(lane) * stride]; });
+}
 
 // Sweeps are flattened: a kernel left as a call would pass its packs through memory.
 template <int Dim, class S>
@@ -90,26 +100,80 @@ void set_boundary_fluxes(const FlowBlock<Dim>& block, const RigidMotion<S>& moti
   }
 }
 
-// What leaves each cell: the differences of the fluxes through its faces.
+// What leaves lanes<Sweep<S>> consecutive cells, the first at offset o: the differences of the fluxes
+// through their faces, [cell][variable].
 template <int Dim, class S>
-void set_balance(const FlowBlock<Dim>& block, const FaceField<Dim, S>& fluxes, std::span<S> balance) {
-  const auto& layout = block.geometry.layout;
+auto outflow(const BlockLayout<Dim>& layout, const FaceField<Dim, S>& fluxes, std::ptrdiff_t o) {
+  using T = Sweep<S>;
   constexpr int n = state_size<Dim>;
+  S by_variable[n][lanes<T>];
+  for (int v = 0; v < n; ++v) {
+    T sum(0.0);
+    for (int d = 0; d < Dim; ++d) {
+      const S* flux = fluxes[d][v].data() + o;
+      sum += Load<T>::from(flux + layout.strides[d]) - Load<T>::from(flux);
+    }
+    store(sum, by_variable[v]);
+  }
+  std::array<S, static_cast<std::size_t>(n * lanes<T>)> by_cell;
+  for (int lane = 0; lane < lanes<T>; ++lane)
+    for (int v = 0; v < n; ++v) by_cell[static_cast<std::size_t>(lane * n + v)] = by_variable[v][lane];
+  return by_cell;
+}
+
+// Calls f(offset, cell, cells) for the cells of a block, at most lanes<Sweep<S>> of a row at a time:
+// offset and number of the first of them.
+template <int Dim, class S, class F>
+void for_each_pack(const FlowBlock<Dim>& block, F&& f) {
+  constexpr int width = lanes<Sweep<S>>;
+  const auto& layout = block.geometry.layout;
+  const int length = layout.extents[0];
   Box<Dim> rows = box_of<Dim>(layout.extents);
   rows.end[0] = 1;
-  S* out = balance.data() + static_cast<std::size_t>(block.first_cell) * n;
+  std::ptrdiff_t cell = block.first_cell;
   for_each(rows, [&](const Index<Dim>& row) {
     const std::ptrdiff_t o = layout.offset(row);
-    for (int v = 0; v < n; ++v)
-      for (int i = 0; i < layout.extents[0]; ++i) {
-        S sum(0.0);
-        for (int d = 0; d < Dim; ++d) {
-          const S* flux = fluxes[d][v].data() + o + i;
-          sum += flux[layout.strides[d]] - flux[0];
-        }
-        out[i * n + v] = sum;
-      }
-    out += static_cast<std::ptrdiff_t>(layout.extents[0]) * n;
+    for (int i = 0; i < length; i += width) f(o + i, cell + i, std::min(width, length - i));
+    cell += length;
+  });
+}
+
+// balance = what the fluxes carry out of each cell.
+template <int Dim, class S>
+void set_balance(const FlowBlock<Dim>& block, const FaceField<Dim, S>& fluxes, std::span<S> balance) {
+  constexpr int n = state_size<Dim>;
+  for_each_pack<Dim, S>(block, [&](std::ptrdiff_t o, std::ptrdiff_t cell, int cells) {
+    const auto out = outflow<Dim, S>(block.geometry.layout, fluxes, o);
+    std::copy_n(out.data(), cells * n, balance.data() + cell * n);
+  });
+}
+
+// balance = what the fluxes carry out of each cell, less its dissipation.
+template <int Dim>
+void set_balance(const FlowBlock<Dim>& block, const FaceField<Dim, double>& fluxes,
+                 std::span<const double> dissipation, std::span<double> balance) {
+  constexpr int n = state_size<Dim>;
+  for_each_pack<Dim, double>(block, [&](std::ptrdiff_t o, std::ptrdiff_t cell, int cells) {
+    const auto out = outflow<Dim, double>(block.geometry.layout, fluxes, o);
+    const double* taken = dissipation.data() + cell * n;
+    double* result = balance.data() + cell * n;
+    for (int i = 0; i < cells * n; ++i) result[i] = out[static_cast<std::size_t>(i)] - taken[i];
+  });
+}
+
+// dissipation += share of (what the fluxes bring into each cell - dissipation); a share of 1 forgets
+// even what is not a number.
+template <int Dim>
+void renew_dissipation(const FlowBlock<Dim>& block, const FaceField<Dim, double>& fluxes, double share,
+                       std::span<double> dissipation) {
+  constexpr int n = state_size<Dim>;
+  for_each_pack<Dim, double>(block, [&](std::ptrdiff_t o, std::ptrdiff_t cell, int cells) {
+    const auto out = outflow<Dim, double>(block.geometry.layout, fluxes, o);
+    double* result = dissipation.data() + cell * n;
+    for (int i = 0; i < cells * n; ++i) {
+      const double renewed = out[static_cast<std::size_t>(i)];
+      result[i] = share == 1.0 ? renewed : result[i] + share * (renewed - result[i]);
+    }
   });
 }
 
@@ -158,16 +222,14 @@ void load_block(const FlowBlock<Dim>& block, int owned_count, std::span<const S>
   using T = Sweep<S>;
   constexpr int n = state_size<Dim>;
   const auto& layout = block.geometry.layout;
-  const S* in = w.data() + static_cast<std::size_t>(block.first_cell) * n;
-  Box<Dim> rows = box_of<Dim>(layout.extents);
-  rows.end[0] = 1;
-  for_each(rows, [&](const Index<Dim>& row) {
-    const std::ptrdiff_t o = layout.offset(row);
-    for (int v = 0; v < n; ++v) {
-      S* to = state.w[v].data() + o;
-      for (int i = 0; i < layout.extents[0]; ++i) to[i] = in[i * n + v];
+  for_each_pack<Dim, S>(block, [&](std::ptrdiff_t o, std::ptrdiff_t cell, int cells) {
+    const S* in = w.data() + cell * n;
+    if (cells == lanes<T>) {
+      for (int v = 0; v < n; ++v) store(strided<T>(in + v, n), state.w[v].data() + o);
+    } else {
+      for (int i = 0; i < cells; ++i)
+        for (int v = 0; v < n; ++v) state.w[v][static_cast<std::size_t>(o + i)] = in[i * n + v];
     }
-    in += static_cast<std::ptrdiff_t>(layout.extents[0]) * n;
   });
   for (const HaloCell& halo : block.halo) {
     const S* from = halo.number < owned_count
@@ -218,21 +280,20 @@ void FluxBalance<Dim, S>::evaluate(std::span<const S> w, std::span<const S> ghos
 }
 
 template <int Dim, class S>
-void FluxBalance<Dim, S>::evaluate_parts(std::span<const S> w, std::span<const S> ghosts,
-                                         const RigidMotion<S>& motion, std::span<S> central,
-                                         std::span<S> dissipation)
-  requires std::is_same_v<S, double>
-{
+void FluxBalance<Dim, S>::evaluate_stage(std::span<const S> w, std::span<const S> ghosts,
+                                         const RigidMotion<S>& motion, double renewed,
+                                         std::span<S> dissipation,
+                                         std::span<S> balance) requires std::is_same_v<S, double> {
   evaluate_blocks(w, ghosts, [&](const auto& block, const auto& scheme, auto& state) {
-    if (dissipation.empty()) {
+    if (renewed == 0.0) {
       sweep_block<Part::central, Dim, S>(block, model_, scheme, motion, state);
     } else {
       if (state.dissipation[0][0].empty()) state.dissipation = zero_field<Dim, S>(block.geometry.layout);
       sweep_block<Part::central_and_dissipation, Dim, S>(block, model_, scheme, motion, state);
       clear_boundary_fluxes<Dim, S>(block, state.dissipation);
-      set_balance<Dim, S>(block, state.dissipation, dissipation);
+      renew_dissipation<Dim>(block, state.dissipation, renewed, dissipation);
     }
-    set_balance<Dim, S>(block, state.flux, central);
+    set_balance<Dim>(block, state.flux, dissipation, balance);
   });
 }
 

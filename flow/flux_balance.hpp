@@ -76,10 +76,11 @@ class FluxBalance {
   // w: [owned cell][variable], ghosts: [ghost cell][variable] -> balance: [owned cell][variable].
   void evaluate(std::span<const S> w, std::span<const S> ghosts, const RigidMotion<S>& motion,
                 std::span<S> balance);
-  // Its two parts, balance = central - dissipation. An empty `dissipation` is not computed.
-  void evaluate_parts(std::span<const S> w, std::span<const S> ghosts, const RigidMotion<S>& motion,
-                      std::span<S> central, std::span<S> dissipation)
-    requires std::is_same_v<S, double>;
+  // balance = central part - dissipation; before that, `dissipation` (of the size of w) moves by the
+  // share `renewed` to that of w. At 0 it is not computed, at 1 its old value does not count.
+  void evaluate_stage(std::span<const S> w, std::span<const S> ghosts, const RigidMotion<S>& motion,
+                      double renewed, std::span<S> dissipation,
+                      std::span<S> balance) requires std::is_same_v<S, double>;
 
  private:
   template <class Visitor>

@@ -30,6 +30,7 @@ struct ForcedFlowResult {
   int iterations = 0;
   int linear_iterations = 0;
   int factorizations = 0;
+  int cycles = 0;  // of Runge-Kutta multigrid, where that came first
   double residual = 1.0;
 };
 

@@ -1,26 +1,14 @@
 #include "flow/line_smoother.hpp"
 
 #include <algorithm>
-#include <experimental/simd>
+
+#include "flow/cell_vector.hpp"
 
 namespace wingbeat {
 namespace {
 
 // Spikes are cut off below this fraction of the jump.
 constexpr double negligible = 1e-6;
-
-// The variables of a cell in one vector.
-template <int N>
-using Values = std::experimental::simd<double, std::experimental::simd_abi::deduce_t<double, N>>;
-
-template <int N>
-Values<N> load(const double* values) {
-  return Values<N>(values, std::experimental::element_aligned);
-}
-template <int N>
-void save(const Values<N>& x, double* values) {
-  x.copy_to(values, std::experimental::element_aligned);
-}
 
 // Lines that are swept together, so that one's recurrence does not wait for itself: cell k of line
 // l lies at first + k step + l across.
@@ -66,32 +54,34 @@ void eliminate(const MeshLines& lines, std::span<const double> eps, bool backwar
 // Forward and backward substitution in `Count` lines of consecutive cells, interleaved.
 template <int N, int Count>
 void solve_along(const double* pivot, const double* transfer, int length, double* values) {
-  Values<N> x[Count];
+  CellVector<N> x[Count];
   for (int l = 0; l < Count; ++l) x[l] = 0.0;
   for (int k = 0; k < length; ++k)
     for (int l = 0; l < Count; ++l) {
       const int c = l * length + k;
-      x[l] = pivot[c] * load<N>(values + c * N) + transfer[c] * x[l];
-      save<N>(x[l], values + c * N);
+      x[l] = pivot[c] * load_cell<N>(values + c * N) + transfer[c] * x[l];
+      store_cell<N>(x[l], values + c * N);
     }
   for (int k = length - 2; k >= 0; --k)
     for (int l = 0; l < Count; ++l) {
       const int c = l * length + k;
-      x[l] = load<N>(values + c * N) + transfer[c] * x[l];
-      save<N>(x[l], values + c * N);
+      x[l] = load_cell<N>(values + c * N) + transfer[c] * x[l];
+      store_cell<N>(x[l], values + c * N);
     }
 }
 
 // The same in `inner` lines side by side, row by row.
 template <int N>
 void solve_across(const double* pivot, const double* transfer, int length, int inner, double* values) {
-  for (int c = 0; c < inner; ++c) save<N>(pivot[c] * load<N>(values + c * N), values + c * N);
+  for (int c = 0; c < inner; ++c) store_cell<N>(pivot[c] * load_cell<N>(values + c * N), values + c * N);
   for (int c = inner; c < length * inner; ++c)
-    save<N>(pivot[c] * load<N>(values + c * N) + transfer[c] * load<N>(values + (c - inner) * N),
-            values + c * N);
+    store_cell<N>(
+        pivot[c] * load_cell<N>(values + c * N) + transfer[c] * load_cell<N>(values + (c - inner) * N),
+        values + c * N);
   for (int k = length - 2; k >= 0; --k)
     for (int c = k * inner; c < (k + 1) * inner; ++c)
-      save<N>(load<N>(values + c * N) + transfer[c] * load<N>(values + (c + inner) * N), values + c * N);
+      store_cell<N>(load_cell<N>(values + c * N) + transfer[c] * load_cell<N>(values + (c + inner) * N),
+                    values + c * N);
 }
 
 }  // namespace
@@ -189,7 +179,7 @@ void LineSmoother::add_spikes(int end, const double* jumps, double* values) cons
       double* row = values + lines_.cell(line, position) * N;
       const double* jump = jumps + line * N;
       for (int i = 0; i < lines_.inner; ++i)
-        save<N>(load<N>(row + i * N) + spike[i] * load<N>(jump + i * N), row + i * N);
+        store_cell<N>(load_cell<N>(row + i * N) + spike[i] * load_cell<N>(jump + i * N), row + i * N);
     }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "flow/cell_vector.hpp"
 #include "flow/spectral_radius.hpp"
 
 namespace wingbeat {
@@ -20,6 +21,10 @@ constexpr std::array<Stage, 5> stages{
 // beta of eq:inverse-modulus: the scheme is stable and damps on the imaginary axis up to its inverse.
 constexpr double harmonic_limit = 0.5;
 
+// Cells whose instances are gathered at a time: instances lie so far apart that their cells compete
+// for the same lines of the cache.
+constexpr std::size_t chunk = 16;
+
 }  // namespace
 
 template <int Dim>
@@ -27,11 +32,17 @@ RungeKutta<Dim>::RungeKutta(FlowEquations<Dim>& flow)
     : flow_(flow),
       smoothing_(flow.domain()),
       inverse_modulus_(flow.time()),
+      radii_(static_cast<std::size_t>(flow.domain().owned_count()) * Dim),
       time_step_(static_cast<std::size_t>(flow.domain().owned_count())),
+      harmonic_weights_(time_step_.size() * flow.instance_count()),
       start_(flow.state_count()),
       residual_(flow.state_count()),
       dissipation_(flow.state_count()),
-      renewed_(flow.state_count()) {}
+      chunk_(flow.instance_count() * chunk) {
+  for (int row = 0; row < flow.time().instances(); ++row)
+    for (int column = 0; column < flow.time().instances(); ++column)
+      derivative_.push_back(flow.time().derivative(row, column));
+}
 
 // The shortest step of the instances serves all: the time-spectral term couples them in a cell.
 template <int Dim>
@@ -40,84 +51,113 @@ void RungeKutta<Dim>::set_time_steps(std::span<const double> w, std::span<const 
   const FlowDomain<Dim>& domain = flow_.domain();
   const std::size_t count = domain.state_count();
   std::fill(time_step_.begin(), time_step_.end(), 0.0);
-  std::vector<double> radii;
-  radii.reserve(flow_.instance_count() * time_step_.size() * Dim);
+  std::fill(radii_.begin(), radii_.end(), 0.0);
   for (std::size_t i = 0; i < flow_.instance_count(); ++i) {
     const std::vector<double> of_instance = directional_radii<Dim>(
         domain, w.subspan(i * count, count), motions[i], flow_.model().freestream.gamma);
     for (std::size_t c = 0; c < time_step_.size(); ++c) {
       double sum = 0.0;
-      for (std::size_t d = 0; d < Dim; ++d) sum += of_instance[c * Dim + d];
+      for (std::size_t d = 0; d < Dim; ++d) {
+        sum += of_instance[c * Dim + d];
+        radii_[c * Dim + d] += of_instance[c * Dim + d];
+      }
       time_step_[c] = std::max(time_step_[c], sum);
     }
-    radii.insert(radii.end(), of_instance.begin(), of_instance.end());
   }
   for (double& value : time_step_) value = options.cfl / value;
-  if (options.smoothing > 0.0)
-    smoothing_.set_coefficients(radii, flow_.time().instances(), options.smoothing);
+  // Shares of the sums are those of the means.
+  if (options.smoothing > 0.0) smoothing_.set_coefficients(radii_, 1, options.smoothing);
 }
 
-// residual_ = R - source, with the dissipation of this stage.
+// |I + beta dtau kappa D|^-1 of every cell.
 template <int Dim>
-void RungeKutta<Dim>::evaluate_stage(std::size_t stage, std::span<const double> w,
-                                     std::span<const MotionState> motions, double kappa,
-                                     std::span<const double> source) {
-  const double renewed = stages[stage].renewed;
-  if (renewed == 0.0) {
-    flow_.balance_parts(w, motions, residual_, {});
-  } else if (renewed == 1.0) {
-    flow_.balance_parts(w, motions, residual_, dissipation_);
-  } else {
-    flow_.balance_parts(w, motions, residual_, renewed_);
-    for (std::size_t i = 0; i < dissipation_.size(); ++i)
-      dissipation_[i] += renewed * (renewed_[i] - dissipation_[i]);
-  }
-  for (std::size_t i = 0; i < residual_.size(); ++i) residual_[i] -= dissipation_[i];
-  if (kappa != 0.0) flow_.add_time_derivative(kappa, w, residual_);
-  for (std::size_t i = 0; i < source.size(); ++i) residual_[i] -= source[i];
-}
-
-// residual_ = |I + beta dtau kappa D|^-1 residual_ in each cell.
-template <int Dim>
-void RungeKutta<Dim>::limit_harmonics(double kappa) {
-  constexpr std::size_t n = state_size<Dim>;
-  const std::size_t instances = flow_.instance_count(), count = flow_.domain().state_count();
+void RungeKutta<Dim>::set_harmonic_weights(double kappa) {
+  const std::size_t instances = flow_.instance_count();
   const auto volumes = flow_.domain().volumes();
-  std::vector<double> weights(instances), cell(instances * n);
-  for (std::size_t c = 0; c < volumes.size(); ++c) {
-    inverse_modulus_.weights(harmonic_limit * kappa * time_step_[c] * volumes[c], weights);
-    double* const first = residual_.data() + c * n;
-    for (std::size_t i = 0; i < instances; ++i) std::copy_n(first + i * count, n, cell.data() + i * n);
-    for (std::size_t i = 0; i < instances; ++i) {
-      std::array<double, n> sum{};
-      for (std::size_t j = 0; j < instances; ++j) {
-        const double weight = weights[(i + instances - j) % instances];
-        for (std::size_t v = 0; v < n; ++v) sum[v] += weight * cell[j * n + v];
+  for (std::size_t c = 0; c < volumes.size(); ++c)
+    inverse_modulus_.weights(harmonic_limit * kappa * time_step_[c] * volumes[c],
+                             std::span<double>(harmonic_weights_).subspan(c * instances, instances));
+}
+
+// residual_ = -alpha dtau r with r = residual_ + kappa Omega D w - source. Returns the sum of squares
+// of r.
+template <int Dim>
+double RungeKutta<Dim>::form_changes(std::span<const double> w, double kappa, std::span<const double> source,
+                                     double alpha) {
+  const std::size_t instances = flow_.instance_count(), count = flow_.domain().state_count();
+  const std::span<const double> steps(time_step_), volumes = flow_.domain().volumes();
+  const std::span<const double> derivative(derivative_);
+  const std::span<CellVector<n>> states(chunk_);
+  double* const residual = residual_.data();
+  CellVector<n> squares(0.0);
+  const auto finish = [&](std::size_t at, double step, CellVector<n> r) {
+    if (!source.empty()) r -= load_cell<n>(source.data() + at);
+    squares += r * r;
+    store_cell<n>(-alpha * step * r, residual + at);
+  };
+  if (kappa == 0.0) {
+    for (std::size_t i = 0, at = 0; i < instances; ++i)
+      for (std::size_t c = 0; c < steps.size(); ++c, at += n)
+        finish(at, steps[c], load_cell<n>(residual + at));
+    return std::experimental::reduce(squares);
+  }
+  for (std::size_t first = 0; first < steps.size(); first += chunk) {
+    const std::size_t last = std::min(first + chunk, steps.size());
+    for (std::size_t j = 0; j < instances; ++j)
+      for (std::size_t c = first; c < last; ++c)
+        states[j * chunk + c - first] = kappa * volumes[c] * load_cell<n>(w.data() + j * count + c * n);
+    for (std::size_t i = 0; i < instances; ++i)
+      for (std::size_t c = first; c < last; ++c) {
+        CellVector<n> r = load_cell<n>(residual + i * count + c * n);
+        for (std::size_t j = 0; j < instances; ++j)
+          r += derivative[i * instances + j] * states[j * chunk + c - first];
+        finish(i * count + c * n, steps[c], r);
       }
-      std::copy_n(sum.data(), n, first + i * count);
-    }
+  }
+  return std::experimental::reduce(squares);
+}
+
+// w = start_ + residual_, the harmonics of residual_ held back.
+template <int Dim>
+void RungeKutta<Dim>::advance(std::span<double> w, double kappa) {
+  const std::size_t instances = flow_.instance_count(), count = flow_.domain().state_count();
+  if (kappa == 0.0) {
+    for (std::size_t i = 0; i < w.size(); ++i) w[i] = start_[i] + residual_[i];
+    return;
+  }
+  const std::span<CellVector<n>> changes(chunk_);
+  const double *start = start_.data(), *residual = residual_.data();
+  for (std::size_t first = 0; first < time_step_.size(); first += chunk) {
+    const std::size_t last = std::min(first + chunk, time_step_.size());
+    for (std::size_t j = 0; j < instances; ++j)
+      for (std::size_t c = first; c < last; ++c)
+        changes[j * chunk + c - first] = load_cell<n>(residual + j * count + c * n);
+    for (std::size_t i = 0; i < instances; ++i)
+      for (std::size_t c = first; c < last; ++c) {
+        const double* weights = harmonic_weights_.data() + c * instances;  // even in the distance
+        CellVector<n> value = load_cell<n>(start + i * count + c * n);
+        for (std::size_t j = 0; j < i; ++j) value += weights[i - j] * changes[j * chunk + c - first];
+        for (std::size_t j = i; j < instances; ++j) value += weights[j - i] * changes[j * chunk + c - first];
+        store_cell<n>(value, w.data() + i * count + c * n);
+      }
   }
 }
 
 template <int Dim>
 double RungeKutta<Dim>::step(std::span<double> w, std::span<const MotionState> motions, double kappa,
                              std::span<const double> source, const RungeKuttaOptions& options) {
-  constexpr std::size_t n = state_size<Dim>;
   std::copy(w.begin(), w.end(), start_.begin());
   set_time_steps(w, motions, options);
-  double sum_of_squares = 0.0;
-  for (std::size_t stage = 0; stage < stages.size(); ++stage) {
-    evaluate_stage(stage, w, motions, kappa, source);
-    if (stage == 0)
-      for (double value : residual_) sum_of_squares += value * value;
-    const double alpha = stages[stage].alpha;
-    for (std::size_t i = 0; i < residual_.size(); ++i)
-      residual_[i] *= -alpha * time_step_[i / n % time_step_.size()];
+  if (kappa != 0.0) set_harmonic_weights(kappa);
+  double first_sum_of_squares = 0.0;
+  for (const Stage& stage : stages) {
+    flow_.stage_balance(w, motions, stage.renewed, dissipation_, residual_);
+    const double sum_of_squares = form_changes(w, kappa, source, stage.alpha);
+    if (&stage == &stages.front()) first_sum_of_squares = sum_of_squares;
     if (options.smoothing > 0.0) smoothing_.apply(residual_, flow_.time().instances());
-    if (kappa != 0.0) limit_harmonics(kappa);
-    for (std::size_t i = 0; i < w.size(); ++i) w[i] = start_[i] + residual_[i];
+    advance(w, kappa);
   }
-  return sum_of_squares;
+  return first_sum_of_squares;
 }
 
 template class RungeKutta<2>;

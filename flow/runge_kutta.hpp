@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/spectral/inverse_modulus.hpp"
+#include "flow/cell_vector.hpp"
 #include "flow/flow_equations.hpp"
 #include "flow/residual_smoothing.hpp"
 
@@ -30,18 +31,25 @@ class RungeKutta {
               std::span<const double> source, const RungeKuttaOptions& options);
 
  private:
+  static constexpr int n = state_size<Dim>;
+
   void set_time_steps(std::span<const double> w, std::span<const MotionState> motions,
                       const RungeKuttaOptions& options);
-  void evaluate_stage(std::size_t stage, std::span<const double> w, std::span<const MotionState> motions,
-                      double kappa, std::span<const double> source);
-  void limit_harmonics(double kappa);
+  void set_harmonic_weights(double kappa);
+  // residual_ = R before time derivative -> change of a stage. Returns the sum of squares of R - source.
+  double form_changes(std::span<const double> w, double kappa, std::span<const double> source, double alpha);
+  void advance(std::span<double> w, double kappa);
 
   FlowEquations<Dim>& flow_;
   ResidualSmoothing<Dim> smoothing_;
   InverseModulus inverse_modulus_;
-  std::vector<double> time_step_;  // dtau / Omega: [owned cell], the same at all instances
-  std::vector<double> start_;      // w at the start of the step
-  std::vector<double> residual_, dissipation_, renewed_;
+  std::vector<double> radii_;             // sums over the instances: [owned cell][direction]
+  std::vector<double> time_step_;         // dtau / Omega: [owned cell], the same at all instances
+  std::vector<double> harmonic_weights_;  // of InverseModulus: [owned cell][distance of instances]
+  std::vector<double> start_;             // w at the start of the step
+  std::vector<double> residual_, dissipation_;
+  std::vector<double> derivative_;    // D: [instance][instance]
+  std::vector<CellVector<n>> chunk_;  // [instance][cell of a chunk]
 };
 
 }  // namespace wingbeat

@@ -5,7 +5,7 @@
 namespace wingbeat {
 
 template <int Dim>
-PseudoTransientResult solve_steady(FlowLevels<Dim>& levels, const MotionState& motion,
+PseudoTransientResult solve_steady(FlowLevelRange<Dim> levels, const MotionState& motion,
                                    const PseudoTransientOptions& options, const SequenceObserver& observer) {
   constexpr double coarse_tolerance = 1e-6;
   const FlowLevel<Dim>* coarser = nullptr;  // the last that was solved
@@ -29,9 +29,9 @@ PseudoTransientResult solve_steady(FlowLevels<Dim>& levels, const MotionState& m
   return result;
 }
 
-template PseudoTransientResult solve_steady<2>(FlowLevels<2>&, const MotionState&,
+template PseudoTransientResult solve_steady<2>(FlowLevelRange<2>, const MotionState&,
                                                const PseudoTransientOptions&, const SequenceObserver&);
-template PseudoTransientResult solve_steady<3>(FlowLevels<3>&, const MotionState&,
+template PseudoTransientResult solve_steady<3>(FlowLevelRange<3>, const MotionState&,
                                                const PseudoTransientOptions&, const SequenceObserver&);
 
 }  // namespace wingbeat

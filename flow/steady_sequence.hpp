@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "flow/flow_level.hpp"
@@ -12,6 +13,9 @@ namespace wingbeat {
 // The same flow on a sequence of meshes, coarsest first.
 template <int Dim>
 using FlowLevels = std::vector<std::unique_ptr<FlowLevel<Dim>>>;
+// Some of them, next to one another.
+template <int Dim>
+using FlowLevelRange = std::span<const std::unique_ptr<FlowLevel<Dim>>>;
 
 // Return false to stop early. `level` counts from the coarsest, 0.
 using SequenceObserver = std::function<bool(std::size_t level, const PseudoTransientIteration&)>;
@@ -21,7 +25,7 @@ using SequenceObserver = std::function<bool(std::size_t level, const PseudoTrans
 // solved to 1e-6 or the tolerance, whichever is larger; one that does not converge is left without w.
 // Leaves every solved level's w and factors. The result is that of the finest mesh. Collective.
 template <int Dim>
-PseudoTransientResult solve_steady(FlowLevels<Dim>& levels, const MotionState& motion,
+PseudoTransientResult solve_steady(FlowLevelRange<Dim> levels, const MotionState& motion,
                                    const PseudoTransientOptions& options,
                                    const SequenceObserver& observer = {});
 

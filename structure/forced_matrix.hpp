@@ -16,8 +16,9 @@ struct ForcedMatrixOptions {
 
 // The aerodynamic matrix Q(k) of eq:aerodynamic-matrix by differences (eq:forced-matrix): first
 // harmonics of the loads of two periodic flows, the section forced in plunge and in pitch by turns
-// about the level's steady flow, over the amplitudes. Off by a term in amplitude^2. Collective. Throws
-// SolveFailure where a flow does not converge.
+// about the level's steady flow, over the amplitudes. Off by a term in amplitude^2; with one harmonic
+// only, by one in the amplitude unless the section is symmetric and at rest at no incidence. Collective.
+// Throws SolveFailure where a flow does not converge.
 template <int Dim>
 Eigen::Matrix2cd forced_aerodynamic_matrix(FlowLevel<Dim>& level, const TimeSpectral& time,
                                            const SectionKinematics& kinematics, double k,

@@ -128,7 +128,7 @@ AerodynamicTable sampled_matrix(LinearizedSection<Dim>& section, const LinearFlu
 }
 
 template <int Dim>
-LinearFlutterSolution<Dim> solve_linear_flutter(FlowLevels<Dim>& levels, const StructureModel& model,
+LinearFlutterSolution<Dim> solve_linear_flutter(FlowLevelRange<Dim> levels, const StructureModel& model,
                                                 const SectionKinematics& kinematics,
                                                 const LinearFlutterOptions& options) {
   const std::vector<MotionState> unmoved{{kinematics.mean_pitch, 0.0, 0.0}};
@@ -169,7 +169,7 @@ template AeroelasticState static_equilibrium<2>(FlowLevel<2>&, const StructureMo
                                                 const SectionKinematics&, double,
                                                 const LinearFlutterOptions&);
 template AerodynamicTable sampled_matrix<2>(LinearizedSection<2>&, const LinearFlutterOptions&);
-template LinearFlutterSolution<2> solve_linear_flutter<2>(FlowLevels<2>&, const StructureModel&,
+template LinearFlutterSolution<2> solve_linear_flutter<2>(FlowLevelRange<2>, const StructureModel&,
                                                           const SectionKinematics&,
                                                           const LinearFlutterOptions&);
 template class LinearizedSection<3>;
@@ -177,7 +177,7 @@ template AeroelasticState static_equilibrium<3>(FlowLevel<3>&, const StructureMo
                                                 const SectionKinematics&, double,
                                                 const LinearFlutterOptions&);
 template AerodynamicTable sampled_matrix<3>(LinearizedSection<3>&, const LinearFlutterOptions&);
-template LinearFlutterSolution<3> solve_linear_flutter<3>(FlowLevels<3>&, const StructureModel&,
+template LinearFlutterSolution<3> solve_linear_flutter<3>(FlowLevelRange<3>, const StructureModel&,
                                                           const SectionKinematics&,
                                                           const LinearFlutterOptions&);
 

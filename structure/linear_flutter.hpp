@@ -82,7 +82,7 @@ struct LinearFlutterSolution {
   std::unique_ptr<LinearizedSection<Dim>> section;  // of the finest level, last solved near the root
 };
 template <int Dim>
-LinearFlutterSolution<Dim> solve_linear_flutter(FlowLevels<Dim>& levels, const StructureModel& model,
+LinearFlutterSolution<Dim> solve_linear_flutter(FlowLevelRange<Dim> levels, const StructureModel& model,
                                                 const SectionKinematics& kinematics,
                                                 const LinearFlutterOptions& options);
 

@@ -24,11 +24,11 @@ struct GivenSpeed {
 using CycleAmplitude = std::variant<GivenEnergy, GivenSpeed>;
 
 struct StaggeredOptions {
-  int flow_cycles = 1;            // N_F, between structural steps
+  int flow_cycles = 5;            // N_F, between structural steps
   int frequency_interval = 1;     // N_omega: structural steps between updates of omega and r
   double pseudo_time_step = 1.0;  // of the structure, in periods of the cycle
   double relaxation = 1.0;        // share of every step of y, omega and r that is taken
-  int max_iterations = 2000;      // structural steps
+  int max_iterations = 5000;      // structural steps
   int max_recoveries = 6;
   AeroelasticTolerances tolerances{};
 };

@@ -7,7 +7,7 @@ namespace wingbeat {
 
 // [staggered]: how flow and structure take turns.
 struct StaggeredSettings {
-  int flow_cycles = 1;
+  int flow_cycles = 5;
   int frequency_interval = 1;
   double pseudo_time_step = 1.0;
   double relaxation = 1.0;

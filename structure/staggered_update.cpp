@@ -11,6 +11,8 @@ namespace wingbeat {
 
 namespace {
 
+constexpr double mean_relaxation = 0.5;
+
 Eigen::Map<const Eigen::MatrixXd> instances(std::span<const double> values, int count) {
   const auto columns = static_cast<Eigen::Index>(count);
   return {values.data(), static_cast<Eigen::Index>(values.size()) / columns, columns};
@@ -42,6 +44,20 @@ ResidualTerms residual_terms(const StructuralEquation& structure, std::span<cons
   return terms;
 }
 
+// What stands for d/dtau: 1/dtau for the fluctuation; (1/theta - 1) A for the mean, so that it is left
+// with the fraction theta of its step to equilibrium.
+void add_pseudo_time(const StructuralEquation& structure, double dtau, Eigen::MatrixXd& matrix) {
+  const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(2 * structure.modes(), 2 * structure.modes());
+  const Eigen::MatrixXd mean_part =
+      (1.0 / mean_relaxation - 1.0) * first_order_matrix(structure.model()) - unit / dtau;
+  const int count = structure.time().instances();
+  const Eigen::Index width = unit.rows();
+  for (int row = 0; row < count; ++row)
+    for (int column = 0; column < count; ++column)
+      matrix.block(row * width, column * width, width, width) += mean_part / count;
+  matrix.diagonal().array() += 1.0 / dtau;
+}
+
 }  // namespace
 
 std::vector<double> structural_step(const StructuralEquation& structure, std::span<const double> y,
@@ -50,7 +66,7 @@ std::vector<double> structural_step(const StructuralEquation& structure, std::sp
   std::vector<double> next(y.size());
   structure.residual(y, omega, load, f, next);
   Eigen::MatrixXd matrix = structure.state_jacobian(y, omega);
-  matrix.diagonal().array() += 1.0 / dtau;
+  add_pseudo_time(structure, dtau, matrix);
   const auto size = static_cast<Eigen::Index>(y.size());
   Eigen::Map<Eigen::VectorXd> change(next.data(), size);
   change = Eigen::Map<const Eigen::VectorXd>(y.data(), size) - matrix.partialPivLu().solve(change).eval();

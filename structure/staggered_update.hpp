@@ -10,8 +10,10 @@ namespace wingbeat {
 // What the staggered iteration does to the structure between two visits to the flow
 // (eq:staggered). States y and forces f are laid out as in StructuralEquation. All functions are pure.
 
-// One linearised implicit Euler step in pseudo-time at fixed forces:
-//   y + dy,  (1/dtau + dS/dy) dy = -S(y).
+// One linearised implicit step in pseudo-time at fixed forces: y + dy with
+//   (P/dtau + dS/dy) dy = -S(y),
+// P/dtau = 1/dtau (implicit Euler) for what fluctuates, A for the mean over the instances, which so
+// goes half the way to equilibrium. A: eq:first-order-form.
 std::vector<double> structural_step(const StructuralEquation& structure, std::span<const double> y,
                                     double omega, double load, std::span<const double> f, double dtau);
 

@@ -30,13 +30,13 @@ def draw_loop(axes, table, abscissa, load, colour):
     theta = np.linspace(0.0, 2.0 * np.pi, 721)
     x, y = series(table[abscissa], theta), series(table[load], theta)
     axes.plot(x, y, color=colour)
-    # The way round, at a quarter of the period from the start.
-    at = 45
+    at = 45  # an arrow there tells the way round
     axes.annotate("", (x[at + 12], y[at + 12]), xytext=(x[at], y[at]),
                   arrowprops={"arrowstyle": "-|>", "color": colour, "shrinkA": 0, "shrinkB": 0})
     for phase, px, py in zip(table["phase"], table[abscissa], table[load]):
         axes.plot([px], [py], "o", color=phase_colour(phase / (2.0 * np.pi)), markersize=6, zorder=5)
-        axes.annotate(f"{np.degrees(phase):.0f}°", (px, py), xytext=(6, 4), textcoords="offset points", fontsize=8)
+        axes.annotate(f"{np.degrees(phase):.0f}°", (px, py), xytext=(6, 4), textcoords="offset points", fontsize=8,
+                      bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.5})
 
 
 def draw(folder):

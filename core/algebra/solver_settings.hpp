@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "core/io/settings.hpp"
@@ -9,6 +10,8 @@ namespace wingbeat {
 // [solver]: how the equations are solved, and how far.
 struct SolverSettings {
   std::string method = "coupled";
+  std::optional<std::string> flow_method;  // newton with a coupled method, runge_kutta with a staggered
+  double newton_switch = 1e-4;
   double steady_tolerance = 1e-11;
   double flow_tolerance = 1e-10;
   double structure_tolerance = 1e-9;
@@ -18,6 +21,12 @@ struct SolverSettings {
   int krylov_restart = 60;
   int overlap = 6;
   int coarse_levels = 2;
+
+  bool is_staggered() const { return method == "staggered"; }
+  // The way the flow is solved by: flow_method, or what goes with the method.
+  std::string flow_solver() const { return flow_method.value_or(is_staggered() ? "runge_kutta" : "newton"); }
+  bool uses_cycles() const { return is_staggered() || flow_solver() != "newton"; }
+  bool ends_with_newton() const { return flow_solver() != "runge_kutta"; }
 
   void describe(SettingSection& keys);
 };

@@ -24,7 +24,7 @@ GasState<Dim, T> halfway(const GasState<Dim, T>& from, const GasState<Dim, T>& c
   return {from.density + 0.5 * change.density, from.u + 0.5 * change.u, from.p + 0.5 * change.p};
 }
 
-// Change of the conservative state along `change`, to either side of `middle`.
+// Change of the conservative state from one end of `change` to the other.
 template <int Dim, class T>
 State<Dim, T> state_change(const GasState<Dim, T>& middle, const GasState<Dim, T>& change, double gamma) {
   const Vec<T, Dim> momentum = middle.density * change.u + change.density * middle.u;
@@ -36,7 +36,7 @@ State<Dim, T> state_change(const GasState<Dim, T>& middle, const GasState<Dim, T
   return result;
 }
 
-// The same of the flux through a face, (eq:euler-ale) with its energy written as
+// The same of the flux through a face (eq:euler-ale), its energy row written as
 // gamma/(gamma-1) p V + 1/2 rho V |u|^2 + p s, V = u . n - s.
 template <int Dim, class T>
 State<Dim, T> flux_change(const GasState<Dim, T>& middle, const GasState<Dim, T>& change,
@@ -109,7 +109,6 @@ FaceStates<Dim, T> face_states(const FaceStencil<Dim, T>& cells, Limiter limiter
 template <int Dim, class T>
 State<Dim, T> flux_beyond_face_states(const FaceStates<Dim, T>& states, const MovedFace<Dim, T>& face,
                                       double gamma) {
-  // The middle is sought from the face's side: backwards.
   const auto change = [&](const GasState<Dim, T>& end, const GasState<Dim, T>& by) {
     const GasState<Dim, T> back{-by.density, -by.u, -by.p};
     return flux_change(halfway(end, back), back, face, gamma);

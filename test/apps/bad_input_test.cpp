@@ -70,7 +70,7 @@ TEST_F(BadInput, NeitherAirfoilNorFile) {
 }
 
 TEST_F(BadInput, EveryVerbChecksItsCaseFirst) {
-  for (const std::string verb : {"steady", "flutter", "pk", "mesh", "partition"})
+  for (const std::string verb : {"steady", "pitch", "flutter", "pk", "mesh", "partition"})
     expect_refused(run_case(verb, "[mesh]\nairfoil = \"naca0012\"\n[flow]\nmahc = 0.8\n"), "out",
                    "case.toml:4: flow.mahc = 0.8: unknown key; did you mean flow.mach?");
 }
@@ -81,6 +81,38 @@ TEST_F(BadInput, FlutterNamesEveryMissingKeyOfTheStructure) {
   for (const std::string key :
        {"elastic_axis", "static_unbalance", "gyration_radius_squared", "frequency_ratio"})
     expect_in("structure." + key + ": missing; wingbeat flutter needs it", run.errors);
+}
+
+TEST_F(BadInput, PitchWithoutFrequencyOrMotionSaysBoth) {
+  const auto run = run_case("pitch", "[mesh]\nairfoil = \"naca0012\"\n", 2);
+  expect_refused(run, "out", "2 faults in the case:");
+  expect_in("case.toml: pitch.reduced_frequency: missing; wingbeat pitch needs it", run.errors);
+  expect_in("case.toml: pitch.amplitude_deg: the section does not move", run.errors);
+}
+
+TEST_F(BadInput, PitchAtNoFrequency) {
+  expect_refused(
+      run_case("pitch",
+               "[mesh]\nairfoil = \"naca0012\"\n[pitch]\namplitude_deg = 1.0\nreduced_frequency = 0\n"),
+      "out", "case.toml:5: pitch.reduced_frequency = 0: out of range; allowed: > 0");
+}
+
+TEST_F(BadInput, PitchBeyondTheHarmonicsKept) {
+  const std::string motion =
+      "[mesh]\nairfoil = \"naca0012\"\n[pitch]\nreduced_frequency = 0.2\nsine_deg = [1.0, 0.0, 0.5]\n";
+  expect_refused(
+      run_case("pitch", motion), "out",
+      "pitch.sine_deg: moves harmonic 3, beyond time.harmonics = 1; set time.harmonics to 3 or more");
+  EXPECT_EQ(run({"pitch", "case.toml", "--dry-run"}).exit_code, 2) << "a plan finds it, too";
+  EXPECT_EQ(run({"pitch", "case.toml", "time.harmonics=3", "--dry-run"}).exit_code, 0);
+  EXPECT_EQ(run({"pitch", "case.toml", "pitch.sine_deg=[1, 0, 0]", "--dry-run"}).exit_code, 0)
+      << "zeros do not move";
+}
+
+// The same keys of the undeformed section serve the other verbs, which need no motion.
+TEST_F(BadInput, OtherVerbsNeedNoPrescribedMotion) {
+  write("case.toml", "[mesh]\nairfoil = \"naca0012\"\ncells = [32, 8]\n[pitch]\nmean_deg = 1.0\n");
+  EXPECT_EQ(run({"steady", "case.toml", "--dry-run"}).exit_code, 0);
 }
 
 TEST_F(BadInput, MissingCaseFile) {

@@ -1,63 +1,11 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
-#include "test/flow/every_scheme.hpp"
-#include "test/flow/kernel_checks.hpp"
-#include "test/flow/kernel_states.hpp"
+#include "test/flow/scheme_checks.hpp"
 
 namespace wingbeat {
 namespace {
 
 using namespace testing;
-
-// Calls test(scheme) for the schemes whose name passes, the scheme as the type that it is.
-template <class Test>
-void for_schemes(const std::vector<std::string>& names, const Test& test) {
-  for (const auto& [name, scheme] : every_scheme()) {
-    const std::string family = name.substr(0, name.find(','));
-    if (!names.empty() && std::ranges::find(names, family) == names.end()) continue;
-    SCOPED_TRACE(name);
-    std::visit(test, scheme);
-  }
-}
-template <class Test>
-void for_every_scheme(const Test& test) {
-  for_schemes({}, test);
-}
-
-template <int Dim>
-FaceStencil<Dim, double> stencil_of(const Vec<State<Dim, double>, 4>& w) {
-  FaceStencil<Dim, double> cells;
-  cells.w = w;
-  for (int k = 0; k < 4; ++k) cells.p[k] = pressure<Dim, double>(w[k], gamma_air);
-  cells.radius = {{{1.7, 2.1}}};
-  return cells;
-}
-
-// Face with the area vector's components up to 2, moving at up to half the speed of sound.
-template <int Dim>
-MovedFace<Dim, double> some_face(Sampler& sample) {
-  MovedFace<Dim, double> face;
-  face.normal = sample.vector<Dim>(2.0);
-  face.sweep = sample.between(-0.6, 0.6) * std::sqrt(dot(face.normal, face.normal));
-  return face;
-}
-
-template <int Dim, class SchemeType>
-State<Dim, double> dissipation(const SchemeType& scheme, const FaceStencil<Dim, double>& cells,
-                               const MovedFace<Dim, double>& face,
-                               const UniformFlow<Dim, double>& uniform = {}) {
-  return scheme.dissipation(cells, face, uniform, gamma_air);
-}
-
-// Four cells given by density, velocity and pressure.
-Vec<State<2, double>, 4> line_of(const Vec<double, 4>& density, const Vec<Vec<double, 2>, 4>& u,
-                                 const Vec<double, 4>& p) {
-  Vec<State<2, double>, 4> w;
-  for (int k = 0; k < 4; ++k) w[k] = conservative<2, double>(density[k], u[k], p[k], gamma_air);
-  return w;
-}
 
 template <int Dim>
 void expect_consistent() {
@@ -131,16 +79,6 @@ void expect_rotation_invariance() {
 TEST(Schemes, FluxesTurnWithTheFrame) {
   expect_rotation_invariance<2>();
   expect_rotation_invariance<3>();
-}
-
-// What a velocity v added to gas and faces makes of a flux.
-template <int Dim>
-State<Dim, double> boosted(State<Dim, double> d, const Vec<double, Dim>& v) {
-  double work = 0.5 * dot(v, v) * d[0];
-  for (int i = 0; i < Dim; ++i) work += v[i] * d[1 + i];
-  d[Dim + 1] += work;
-  for (int i = 0; i < Dim; ++i) d[1 + i] += v[i] * d[0];
-  return d;
 }
 
 template <int Dim>
@@ -271,176 +209,6 @@ TEST(Schemes, GasAtRestStaysAtRest) {
     const auto flux = numerical_flux<2, double>(scheme, cells, face, gamma_air);
     expect_close(flux, State<2, double>{{{0.0, 0.8 * 0.9, 0.6 * 0.9, 0.0}}});
   });
-}
-
-// A jump of density, the same velocity and pressure on both sides, carried past by a face of the
-// same normal speed.
-struct Contact {
-  Vec<double, 2> u{{{0.4, -0.7}}};
-  MovedFace<2, double> face{{{{1.2, 0.9}}}, 0.4 * 1.2 - 0.7 * 0.9};
-  Vec<double, 4> density{{{1.0, 1.0, 2.5, 2.5}}};
-  FaceStencil<2, double> cells = stencil_of<2>(line_of(density, {{{u, u, u, u}}}, {{{1.1, 1.1, 1.1, 1.1}}}));
-};
-
-TEST(Schemes, RoeAndCuspLeaveAContactOnTheFaceAsItIs) {
-  const Contact contact;
-  for_schemes({"roe", "cusp"}, [&](const auto& scheme) {
-    expect_close(dissipation<2>(scheme, contact.cells, contact.face), State<2, double>{});
-  });
-}
-
-// Density there diffuses at the least speed of entropy waves, by the third difference alone.
-TEST(MatrixScheme, DampsAContactOnTheFaceByItsFloor) {
-  const Contact contact;
-  MatrixScheme matrix;
-  matrix.smoothing = 0.0;
-  const double c = std::sqrt(gamma_air * 1.1 / 1.75), third = -3.0 * 1.5 + 1.5;
-  const double mass = -1.5 * matrix.k4 * matrix.linear_floor * c * third;
-  expect_close(dissipation<2>(matrix, contact.cells, contact.face), boosted<2>({{{mass}}}, contact.u));
-}
-
-// Its two split mass fluxes, rho c / 4 each way, do not know that nothing moves.
-TEST(VanLeerScheme, SpreadsAContactOnTheFace) {
-  const Contact contact;
-  const auto states = face_states(contact.cells, Limiter::van_albada, gamma_air);
-  const double area = 1.5;
-  const auto d = dissipation<2>(VanLeerScheme{}, contact.cells, contact.face);
-  const auto rho_c = [&](const GasState<2, double>& gas) {
-    return gas.density * std::sqrt(gamma_air * gas.p / gas.density);
-  };
-  EXPECT_NEAR(d[0], 0.25 * area * (rho_c(states.right) - rho_c(states.left)), round_off);
-  EXPECT_GT(d[0], 0.1);
-}
-
-// A contact that crosses the face takes its density with it; velocity and pressure, the same on
-// both sides, remain so.
-TEST(Schemes, CrossingContactsCarryDensityAlone) {
-  Contact contact;
-  for (double relative : {-3.0, -0.5, 0.2, 1.0, 2.5}) {
-    MovedFace<2, double> face = contact.face;
-    face.sweep -= relative;
-    for_schemes({"jst", "matrix", "cusp", "roe"}, [&](const auto& scheme) {
-      const auto d = dissipation<2>(scheme, contact.cells, face);
-      expect_close(d, boosted<2>({{{d[0]}}}, contact.u));
-    });
-  }
-}
-
-TEST(Schemes, JstAndCuspKeepUniformTotalEnthalpy) {
-  Sampler sample(9);
-  for (int trial = 0; trial < 20; ++trial) {
-    const double enthalpy = 4.2;
-    Vec<State<2, double>, 4> w;
-    for (int k = 0; k < 4; ++k) {
-      const double density = sample.between(0.7, 1.4);
-      const auto u = sample.vector<2>(1.2);
-      w[k] = conservative<2, double>(density, u, density / 3.5 * (enthalpy - 0.5 * dot(u, u)), gamma_air);
-    }
-    MovedFace<2, double> face = some_face<2>(sample);
-    face.sweep = 0.0;
-    for_schemes({"jst", "cusp"}, [&](const auto& scheme) {
-      const auto d = dissipation<2>(scheme, stencil_of<2>(w), face);
-      EXPECT_NEAR(d[3], enthalpy * d[0], round_off);
-    });
-  }
-}
-
-TEST(Schemes, SupersonicFacesTakeTheUpwindFlux) {
-  Sampler sample(10);
-  for (int trial = 0; trial < 20; ++trial) {
-    const auto cells = stencil_of<2>(sample.line<2>(0.1));
-    for (double side : {1.0, -1.0}) {
-      const MovedFace<2, double> face{{{{0.8, -0.6}}}, side * -4.5};
-      for_schemes({"roe", "van leer"}, [&](const auto& scheme) {
-        if constexpr (requires { scheme.limiter; }) {
-          const auto states = face_states(cells, scheme.limiter, gamma_air);
-          const auto& upwind = side > 0 ? states.left : states.right;
-          expect_close(numerical_flux<2, double>(scheme, cells, face, gamma_air),
-                       euler_flux<2>(upwind.state(gamma_air), upwind.p, face.normal, face.sweep));
-        }
-      });
-    }
-  }
-}
-
-// With the waves' speeds in place of their moduli, the product is the Jacobian's: at Roe's average
-// it takes the jump of states to the jump of fluxes.
-template <int Dim>
-void expect_roe_average() {
-  Sampler sample(11);
-  for (int trial = 0; trial < 20; ++trial) {
-    const auto gas = [&]() -> GasState<Dim, double> {
-      return {sample.between(0.5, 2.0), sample.vector<Dim>(1.5), sample.between(0.5, 2.0)};
-    };
-    const auto left = gas(), right = gas();
-    const auto face = some_face<Dim>(sample);
-    const auto unit = unit_face(face);
-    const auto mean = roe_average(left, right, gamma_air);
-    const double c = std::sqrt(mean.sound_speed_squared), through = dot(mean.u, unit.normal) - unit.speed;
-    const auto jump =
-        absolute_jacobian<Dim, double>(mean, c, unit.normal, {through, through - c, through + c},
-                                       right.state(gamma_air) - left.state(gamma_air), gamma_air);
-    const auto flux = [&](const GasState<Dim, double>& side) {
-      return euler_flux<Dim>(side.state(gamma_air), side.p, face.normal, face.sweep);
-    };
-    expect_close(unit.area * jump, flux(right) - flux(left));
-  }
-}
-
-TEST(RoeAverage, TakesTheJumpOfStatesToThatOfFluxes) {
-  expect_roe_average<2>();
-  expect_roe_average<3>();
-}
-
-// F+ and F- follow from their sum and difference. Van Leer's conditions: one-way mass fluxes
-// rho c (1 +- M)^2 / 4, all or nothing beyond sonic speed, continuous derivatives there.
-TEST(VanLeerScheme, SplitsTheFluxByTheMachNumberRelativeToTheFace) {
-  using D = Dual<double, 1>;
-  const double c = std::sqrt(gamma_air * 0.8 / 1.3);
-  const GasState<2, D> gas{1.3, {{{D(0.9), D(-0.4)}}}, 0.8};
-  const auto split = [&](double mach, double sign) {
-    MovedFace<2, D> face{{{{D(0.6), D(0.8)}}}, D::seed(0.9 * 0.6 - 0.4 * 0.8 - mach * c, 0)};
-    const auto flux = euler_flux<2>(gas.state(gamma_air), gas.p, face.normal, face.sweep);
-    return 0.5 * (flux + sign * split_flux_difference(gas, unit_face(face), gamma_air));
-  };
-  for (double mach : {-0.99, -0.4, 0.0, 0.3, 0.9}) {
-    EXPECT_NEAR(split(mach, +1)[0].value, 1.3 * c / 4 * (1 + mach) * (1 + mach), round_off);
-    EXPECT_NEAR(split(mach, -1)[0].value, -1.3 * c / 4 * (1 - mach) * (1 - mach), round_off);
-  }
-  for (int v = 0; v < 4; ++v) {
-    EXPECT_NEAR(split(1.7, -1)[v].value, 0.0, round_off);
-    EXPECT_NEAR(split(-1.7, +1)[v].value, 0.0, round_off);
-    for (double sonic : {1.0, -1.0}) {
-      const D inside = split(sonic * (1 - 1e-9), -sonic)[v], outside = split(sonic * (1 + 1e-9), -sonic)[v];
-      EXPECT_NEAR(inside.value, outside.value, 1e-8);
-      EXPECT_NEAR(inside.gradient[0], outside.gradient[0], 1e-8);
-    }
-  }
-}
-
-Vec<double, 1> number(double x) { return {{{x}}}; }
-
-constexpr Limiter limiters[] = {Limiter::van_albada, Limiter::venkatakrishnan};
-
-TEST(Limiter, KeepsLinearVariationAndSmoothDifferences) {
-  for (Limiter limiter : limiters) {
-    EXPECT_NEAR(limited_increment(limiter, number(0.7), number(0.7), 1e-4)[0], 0.35, round_off);
-    EXPECT_EQ(limited_increment(limiter, number(0.0), number(0.0), 1e-4)[0], 0.0);
-    // Differences of a hundredth of what counts as smooth: the unlimited scheme, to that squared.
-    const double unlimited = limiter == Limiter::van_albada ? 0.5 * (1e-4 - 2e-4) / 2 : (1e-4 - 4e-4) / 6;
-    EXPECT_NEAR(limited_increment(limiter, number(1e-4), number(-2e-4), 1e-4)[0] / unlimited, 1.0, 1e-3);
-  }
-}
-
-// Venkatakrishnan's function reaches 1.094 at most.
-TEST(Limiter, DoesNotReachBeyondNeighboursAcrossJumps) {
-  for (Limiter limiter : limiters)
-    for (double behind : {0.0, 0.05, 0.3, 1.0, 4.0, 100.0})
-      for (double across : {0.0, 0.05, 0.3, 1.0, 4.0, 100.0}) {
-        const double increment = limited_increment(limiter, number(behind), number(across), 1e-20)[0];
-        EXPECT_GE(increment, 0.0);
-        EXPECT_LE(increment, 1.095 * std::min(behind, across) + 1e-12) << behind << ' ' << across;
-      }
 }
 
 }  // namespace

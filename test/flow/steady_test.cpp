@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "core/mesh/plot3d.hpp"
+#include "test/flow/every_scheme.hpp"
 #include "test/flow/steady_case.hpp"
 
 namespace wingbeat {
@@ -41,6 +42,19 @@ TEST(SteadyFlow, ResidualFallsElevenAndAHalfOrdersThroughShocks) {
     EXPECT_EQ(solution.result.status, SolveStatus::converged) << s.name << " at Mach " << s.mach;
     EXPECT_LE(std::log10(solution.result.residual), -11.49);
     EXPECT_LE(solution.result.iterations, 60);
+  }
+}
+
+// On a coarse mesh the schemes' lifts lie within some hundredths of each other.
+TEST(SteadyFlow, EverySchemeConvergesThroughShocksToTheSameFlow) {
+  FlowCase<2> c(section_mesh("naca0012", 64, 16, 1, 60.0), 0.8, 1.25);
+  for (const auto& [name, scheme] : every_scheme()) {
+    c.model.scheme = scheme;
+    const auto solution = solve_steady(c, 1e-11);
+    EXPECT_EQ(solution.result.status, SolveStatus::converged) << name;
+    EXPECT_LE(solution.result.iterations, 40) << name;
+    EXPECT_NEAR(solution.lift, 0.36, 0.02) << name;
+    EXPECT_NEAR(solution.drag, 0.026, 0.004) << name;
   }
 }
 

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <string>
+
+#include "apps/context.hpp"
+#include "apps/history.hpp"
+#include "flow/flow_level.hpp"
+#include "structure/linear_flutter.hpp"
+#include "structure/staggered.hpp"
+
+namespace wingbeat {
+
+// Where the search for a cycle begins: its state, the state of rest it is measured from (one
+// instance) and factors worth starting Newton with.
+struct CycleStart {
+  AeroelasticState state;
+  AeroelasticState rest;
+  HarmonicFactors factors;
+};
+
+struct CycleSolution {
+  SolveStatus status = SolveStatus::iteration_limit;
+  AeroelasticState state;
+  AeroelasticResiduals residuals;
+  int newton_iterations = 0;
+  int linear_iterations = 0;
+  int factorizations = 0;
+  int staggered_iterations = 0;
+  int flow_cycles = 0;
+};
+
+// Finds flutter and limit cycles on one mesh by the case's method, with lines of progress and of
+// history. All methods are collective.
+class CycleSolver {
+ public:
+  CycleSolver(Context& context, FlowLevel<2>& level, const StructureModel& model, History& history)
+      : context_(context),
+        level_(level),
+        model_(model),
+        time_(context.settings.time.harmonics),
+        history_(history) {}
+
+  // Small motion of the given energy at a flutter root, by the linearization on the level itself or, with
+  // a staggered method, on a coarser one: no matrix of the level's size is then factored.
+  CycleStart linear_start(LinearFlutterSolution<2>& linear, const FlowLevel<2>& linearized, double energy);
+  CycleStart restart(AeroelasticState state);
+  // A solved cycle blown up or down, about the state of rest, to another energy.
+  CycleStart grown(AeroelasticState state, const AeroelasticState& rest, double energy);
+
+  // The cycle of given energy or speed. `stage` names it in progress and history.
+  CycleSolution solve(const std::string& stage, const CycleStart& start, const CycleAmplitude& amplitude);
+
+ private:
+  CycleSolution solve_coupled(const std::string& stage, const CycleStart& start, double energy);
+  CycleSolution solve_coupled_at_speed(const std::string& stage, CycleStart start, const GivenSpeed& given);
+  CycleSolution solve_by_turns(const std::string& stage, const CycleStart& start,
+                               const CycleAmplitude& amplitude);
+  AeroelasticTolerances tolerances() const;
+
+  Context& context_;
+  FlowLevel<2>& level_;
+  const StructureModel& model_;
+  TimeSpectral time_;
+  History& history_;
+};
+
+// The numbers of a cycle as result.json names them.
+nlohmann::ordered_json cycle_entry(const CaseSettings& settings, const StructureModel& model,
+                                   const CycleSolution& solution);
+// What was found, as a table; why it was not, as a sentence (empty where it was).
+void print_cycle(Context& context, const nlohmann::ordered_json& entry);
+std::string cycle_advice(const CaseSettings& settings, const CycleSolution& solution);
+
+}  // namespace wingbeat

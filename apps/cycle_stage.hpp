@@ -1,0 +1,20 @@
+#pragma once
+
+#include <optional>
+
+#include "apps/cycle_solver.hpp"
+#include "flow/steady_sequence.hpp"
+
+namespace wingbeat {
+
+// What leads a case to its first cycle of the given energy: the restart where it holds a periodic
+// solution, else steady flow and linear flutter, whose results it reports. Nothing where that ends the
+// run: `status` and the result's message then say why. Collective.
+struct CycleApproach {
+  SolveStatus status = SolveStatus::converged;
+  std::optional<CycleStart> start;
+};
+CycleApproach approach_cycle(Context& context, FlowLevels<2>& levels, const StructureModel& model,
+                             CycleSolver& solver, double energy, History& history);
+
+}  // namespace wingbeat

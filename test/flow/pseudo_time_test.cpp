@@ -1,0 +1,93 @@
+#include "flow/pseudo_time.hpp"
+
+#include <gtest/gtest.h>
+
+#include "test/flow/multigrid_case.hpp"
+
+namespace wingbeat {
+namespace {
+
+using namespace testing;
+
+struct PseudoTime : ::testing::Test {
+  MultigridCase c{section_mesh("naca0012", 64, 16, 1, 60.0), 0.8, 1.25};
+
+  PseudoTimeResult solve(std::vector<double>& w, const PseudoTimeOptions& options,
+                         const PseudoTimeObserver& observer = {}) {
+    Multigrid<2> multigrid(c.flow, c.divided(), options.multigrid);
+    return pseudo_time<2>(c.flow, multigrid, w, c.motions, c.kappa, options, observer);
+  }
+};
+
+TEST_F(PseudoTime, ReportsTheResidualOfTheStateThatItReturns) {
+  PseudoTimeOptions options;
+  options.tolerance = 1e-5;
+  auto w = c.flow.uniform_state();
+  std::vector<double> residuals;
+  const auto result = solve(w, options, [&](const PseudoTimeIteration& i) {
+    EXPECT_EQ(i.cycle, static_cast<int>(residuals.size()));
+    residuals.push_back(i.residual);
+    return true;
+  });
+  EXPECT_EQ(result.status, SolveStatus::converged);
+  EXPECT_NEAR(residuals.front(), 1.0, 1e-12) << "uniform flow";
+  EXPECT_EQ(result.residual, residuals.back());
+  EXPECT_EQ(result.cycles + 1, static_cast<int>(residuals.size()));
+  EXPECT_NEAR(relative_residual(c, w), result.residual, 1e-6 * result.residual);
+}
+
+TEST_F(PseudoTime, StopsAtTheLimitOfCyclesAndWhenAskedTo) {
+  PseudoTimeOptions options;
+  options.max_cycles = 7;
+  auto w = c.flow.uniform_state();
+  EXPECT_EQ(solve(w, options).status, SolveStatus::iteration_limit);
+  int seen = 0;
+  w = c.flow.uniform_state();
+  const auto result = solve(w, options, [&](const PseudoTimeIteration&) { return ++seen < 3; });
+  EXPECT_EQ(result.status, SolveStatus::interrupted);
+  EXPECT_EQ(result.cycles, 2);
+  EXPECT_NEAR(relative_residual(c, w), result.residual, 1e-6 * result.residual);
+}
+
+TEST_F(PseudoTime, RetreatsToAShorterStepThatConverges) {
+  PseudoTimeOptions options;
+  options.tolerance = 1e-6;
+  options.multigrid.runge_kutta.cfl = 100.0;
+  auto w = c.flow.uniform_state();
+  int retreats = 0;
+  const auto result = solve(w, options, [&](const PseudoTimeIteration& i) {
+    EXPECT_DOUBLE_EQ(i.cfl, 100.0 * std::pow(0.5, i.retreats));
+    EXPECT_TRUE(i.retreats == retreats || i.retreats == retreats + 1);
+    retreats = i.retreats;
+    return true;
+  });
+  EXPECT_EQ(result.status, SolveStatus::converged);
+  EXPECT_GE(result.retreats, 3);
+  EXPECT_DOUBLE_EQ(result.cfl, 100.0 * std::pow(0.5, result.retreats));
+  EXPECT_NEAR(relative_residual(c, w), result.residual, 1e-6 * result.residual);
+}
+
+TEST_F(PseudoTime, GivesUpAtTheLastGoodState) {
+  PseudoTimeOptions options;
+  options.max_retreats = 1;
+  options.multigrid.runge_kutta.cfl = 1000.0;
+  auto w = c.flow.uniform_state();
+  const auto result = solve(w, options);
+  EXPECT_EQ(result.status, SolveStatus::diverged);
+  EXPECT_EQ(result.retreats, 1);
+  EXPECT_TRUE(is_physical<2>(w, 1.4));
+  EXPECT_LE(relative_residual(c, w), 1e3);
+}
+
+TEST_F(PseudoTime, FullMultigridStartsBelowUniformFlow) {
+  const auto w = full_multigrid_start<2>(c.flow, c.divided(), c.motions, c.kappa, {});
+  EXPECT_TRUE(is_physical<2>(w, 1.4));
+  EXPECT_LE(relative_residual(c, w), 0.3);
+  PseudoTimeOptions single;
+  single.multigrid.levels = 1;
+  const auto uniform = full_multigrid_start<2>(c.flow, c.divided(), c.motions, c.kappa, single);
+  EXPECT_EQ(largest_difference(c.comm, uniform, c.flow.uniform_state()), 0.0);
+}
+
+}  // namespace
+}  // namespace wingbeat
