@@ -12,7 +12,7 @@ std::string steady_advice(SolveStatus status, const SolverSettings& settings) {
       return fmt::format(
           "the steady flow did not reach solver.steady_tolerance = {} in solver.max_steady_iterations = {}; "
           "allow more if |R| in history.csv still falls, else relax the tolerance",
-          settings.steady_tolerance, settings.max_steady_iterations);
+          settings.steady_target(), settings.max_steady_iterations);
     case SolveStatus::stalled:
       return "the steady flow stalled: no step lowers |R|; look at the mesh with `wingbeat mesh`, or lower "
              "flow.mach or the incidence";

@@ -17,7 +17,7 @@ FlowCycles::FlowCycles(Context& context, const FlowLevel<2>& level, FlowEquation
     : context_(context),
       level_(level),
       flow_(flow),
-      options_(context.settings.pseudo_time.options(0.0)),
+      options_(context.settings.pseudo_time.options(flow.model().scheme, 0.0)),
       multigrid_(flow, {level.mesh, level.partition}, options_.multigrid) {
   const auto& asked = context.settings.pseudo_time.levels;
   if (asked && multigrid_.levels() < *asked)
@@ -73,11 +73,10 @@ std::string cycles_advice(SolveStatus status, double tolerance, const PseudoTime
           tolerance, settings.max_cycles);
     case SolveStatus::diverged:
       return fmt::format(
-          "Runge-Kutta cycles diverged at every CFL number tried, from pseudo_time.cfl = {} downwards; "
-          "start from less: a lower flow.mach or amplitude with --restart, or look at the mesh with "
-          "`wingbeat "
-          "mesh`",
-          settings.cfl);
+          "Runge-Kutta cycles diverged {} times, each time at half the CFL number; start with a smaller "
+          "pseudo_time.cfl, or from less: a lower flow.mach or amplitude with --restart; or look at the mesh "
+          "with `wingbeat mesh`",
+          settings.max_retreats + 1);
     case SolveStatus::interrupted:
       return "stopped by a signal or --walltime; continue with --restart solution.cgns";
     default:

@@ -93,7 +93,7 @@ GmresOptions gmres_options(const SolverSettings& settings) {
 
 PseudoTransientOptions steady_options(const SolverSettings& settings) {
   PseudoTransientOptions options;
-  options.tolerance = settings.steady_tolerance;
+  options.tolerance = settings.steady_target();
   options.max_iterations = settings.max_steady_iterations;
   options.gmres = gmres_options(settings);
   return options;

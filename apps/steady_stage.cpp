@@ -66,8 +66,8 @@ SteadyOutcome solve_by_cycles(Context& context, FlowLevels<2>& levels, const Mot
     const auto& coarse = levels[levels.size() - (has_coarse ? 2 : 1)];
     level.w = has_coarse ? transferred_state<2>(*coarse, coarse->w, level) : cycles.start(motions, 0.0);
   }
-  const double tolerance = solver.ends_with_newton() ? std::max(solver.newton_switch, solver.steady_tolerance)
-                                                     : solver.steady_tolerance;
+  const double tolerance = solver.ends_with_newton() ? std::max(solver.newton_switch, solver.steady_target())
+                                                     : solver.steady_target();
   const PseudoTimeResult result = cycles.solve(level.w, motions, 0.0, tolerance, "steady flow", history);
   context.result.message = cycles_advice(result.status, tolerance, context.settings.pseudo_time);
   return {result.status, result.residual, {0, 0, 0, result.cycles}};

@@ -7,7 +7,7 @@ namespace wingbeat {
 namespace {
 
 // A residual this many times that of uniform flow is no flow any more.
-constexpr double hopeless_residual = 1e3;
+constexpr double hopeless_residual = 50.0;
 // Cycles after which a state that still behaves is kept to go back to.
 constexpr int cycles_to_trust = 10;
 

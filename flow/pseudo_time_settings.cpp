@@ -2,14 +2,17 @@
 
 namespace wingbeat {
 
-PseudoTimeOptions PseudoTimeSettings::options(double tolerance) const {
+PseudoTimeOptions PseudoTimeSettings::options(const Scheme& scheme, double tolerance) const {
+  // Upwinding damps more than five stages made for central schemes bear at longer steps.
+  const bool is_upwind =
+      std::holds_alternative<RoeScheme>(scheme) || std::holds_alternative<VanLeerScheme>(scheme);
   PseudoTimeOptions options;
   options.tolerance = tolerance;
   options.max_cycles = max_cycles;
   options.max_retreats = max_retreats;
   options.multigrid.levels = levels;
   options.multigrid.recursion = cycle == "v" ? 1 : 2;
-  options.multigrid.runge_kutta = {.cfl = cfl, .smoothing = smoothing};
+  options.multigrid.runge_kutta = {.cfl = cfl.value_or(is_upwind ? 3.0 : 5.0), .smoothing = smoothing};
   return options;
 }
 
@@ -20,7 +23,7 @@ int PseudoTimeSettings::granularity() const {
 
 void PseudoTimeSettings::describe(SettingSection& keys) {
   keys.add("cfl", &cfl,
-           {.help = "CFL number of the Runge-Kutta steps",
+           {.help = "CFL number of the Runge-Kutta steps; unset: 5, with upwind schemes 3",
             .range = {.lower = 0.0, .upper = 100.0, .lower_open = true}});
   keys.add("smoothing", &smoothing,
            {.help = "CFL number over that of residuals without implicit smoothing; 0: no smoothing",

@@ -33,6 +33,13 @@ ResidualSmoothing<Dim>::ResidualSmoothing(const FlowDomain<Dim>& domain)
 
 template <int Dim>
 void ResidualSmoothing<Dim>::set_coefficients(std::span<const double> lambda, int instances, double ratio) {
+  const std::vector<double> ratios(static_cast<std::size_t>(domain_.owned_count()), ratio);
+  set_coefficients(lambda, instances, ratios);
+}
+
+template <int Dim>
+void ResidualSmoothing<Dim>::set_coefficients(std::span<const double> lambda, int instances,
+                                              std::span<const double> ratios) {
   const auto cells = static_cast<std::size_t>(domain_.owned_count());
   ensure(instances > 0 && lambda.size() == static_cast<std::size_t>(instances) * cells * Dim,
          "smoothing needs the spectral radii of every instance, cell and direction, not " +
@@ -43,7 +50,7 @@ void ResidualSmoothing<Dim>::set_coefficients(std::span<const double> lambda, in
     Vec<double, Dim> sum;  // shares of the mean are shares of the sum
     for (std::size_t i = 0; i < static_cast<std::size_t>(instances); ++i)
       for (int d = 0; d < Dim; ++d) sum[d] += lambda[(i * cells + c) * Dim + static_cast<std::size_t>(d)];
-    const Vec<double, Dim> of_cell = smoothing_coefficients<Dim>(sum, ratio);
+    const Vec<double, Dim> of_cell = smoothing_coefficients<Dim>(sum, ratios[c]);
     for (int d = 0; d < Dim; ++d) eps[static_cast<std::size_t>(d)][c] = of_cell[d];
   }
   for (int d = 0; d < Dim; ++d) {

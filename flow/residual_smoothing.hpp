@@ -33,6 +33,8 @@ class ResidualSmoothing {
   // smoothed alike, by the means of their radii. ratio: Courant number over that of the scheme
   // without smoothing; at 1 nothing is smoothed. Collective.
   void set_coefficients(std::span<const double> lambda, int instances, double ratio);
+  // The same with a ratio of its own in each owned cell.
+  void set_coefficients(std::span<const double> lambda, int instances, std::span<const double> ratios);
 
   // r: [instance][owned cell][variable], smoothed in place. Collective.
   void apply(std::span<double> r, int instances) const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "flow/cell_vector.hpp"
 #include "flow/spectral_radius.hpp"
@@ -65,8 +66,22 @@ void RungeKutta<Dim>::set_time_steps(std::span<const double> w, std::span<const 
     }
   }
   for (double& value : time_step_) value = options.cfl / value;
+}
+
+// Smoothing buys longer steps. Where the highest harmonic is held back to short ones it only keeps rough
+// errors of that harmonic from being damped: there it fades out, and the step with it
+// (eq:smoothing-of-harmonics).
+template <int Dim>
+void RungeKutta<Dim>::set_smoothing(double kappa, double ratio) {
+  const auto volumes = flow_.domain().volumes();
+  const double highest = harmonic_limit * kappa * flow_.time().harmonics();
+  std::vector<double> ratios(time_step_.size());
+  for (std::size_t c = 0; c < ratios.size(); ++c) {
+    ratios[c] = std::max(1.0, ratio / std::hypot(1.0, highest * time_step_[c] * volumes[c]));
+    time_step_[c] *= ratios[c] / ratio;
+  }
   // Shares of the sums are those of the means.
-  if (options.smoothing > 0.0) smoothing_.set_coefficients(radii_, 1, options.smoothing);
+  smoothing_.set_coefficients(radii_, 1, ratios);
 }
 
 // |I + beta dtau kappa D|^-1 of every cell.
@@ -146,15 +161,17 @@ void RungeKutta<Dim>::advance(std::span<double> w, double kappa) {
 template <int Dim>
 double RungeKutta<Dim>::step(std::span<double> w, std::span<const MotionState> motions, double kappa,
                              std::span<const double> source, const RungeKuttaOptions& options) {
+  if (flow_.instance_count() == 1) kappa = 0.0;  // a single instance has no derivative
   std::copy(w.begin(), w.end(), start_.begin());
   set_time_steps(w, motions, options);
+  if (options.smoothing > 1.0) set_smoothing(kappa, options.smoothing);
   if (kappa != 0.0) set_harmonic_weights(kappa);
   double first_sum_of_squares = 0.0;
   for (const Stage& stage : stages) {
     flow_.stage_balance(w, motions, stage.renewed, dissipation_, residual_);
     const double sum_of_squares = form_changes(w, kappa, source, stage.alpha);
     if (&stage == &stages.front()) first_sum_of_squares = sum_of_squares;
-    if (options.smoothing > 0.0) smoothing_.apply(residual_, flow_.time().instances());
+    if (options.smoothing > 1.0) smoothing_.apply(residual_, flow_.time().instances());
     advance(w, kappa);
   }
   return first_sum_of_squares;

@@ -11,7 +11,7 @@
 namespace wingbeat {
 
 struct RungeKuttaOptions {
-  double cfl = 6.0;
+  double cfl = 5.0;
   double smoothing = 2.0;  // CFL number over that of unsmoothed residuals; 0: no smoothing
 };
 
@@ -35,6 +35,7 @@ class RungeKutta {
 
   void set_time_steps(std::span<const double> w, std::span<const MotionState> motions,
                       const RungeKuttaOptions& options);
+  void set_smoothing(double kappa, double ratio);
   void set_harmonic_weights(double kappa);
   // residual_ = R before time derivative -> change of a stage. Returns the sum of squares of R - source.
   double form_changes(std::span<const double> w, double kappa, std::span<const double> source, double alpha);

@@ -12,7 +12,7 @@ struct SolverSettings {
   std::string method = "coupled";
   std::optional<std::string> flow_method;  // newton with a coupled method, runge_kutta with a staggered
   double newton_switch = 1e-4;
-  double steady_tolerance = 1e-11;
+  std::optional<double> steady_tolerance;
   double flow_tolerance = 1e-10;
   double structure_tolerance = 1e-9;
   int max_steady_iterations = 200;
@@ -27,6 +27,9 @@ struct SolverSettings {
   std::string flow_solver() const { return flow_method.value_or(is_staggered() ? "runge_kutta" : "newton"); }
   bool uses_cycles() const { return is_staggered() || flow_solver() != "newton"; }
   bool ends_with_newton() const { return flow_solver() != "runge_kutta"; }
+
+  // What the steady flow is solved to: steady_tolerance, or what the way of solving can reach on any mesh.
+  double steady_target() const { return steady_tolerance.value_or(ends_with_newton() ? 1e-11 : 1e-10); }
 
   void describe(SettingSection& keys);
 };

@@ -93,37 +93,6 @@ TEST(Multigrid, ReachesTheSolutionOfNewtonsMethod) {
   }
 }
 
-TEST(Multigrid, FallsTenOrdersThroughShocksInFewCycles) {
-  struct Section {
-    const char* name;
-    double mach, angle_deg;
-    int cycles;  // a fifth more than it takes
-  };
-  for (const Section& s :
-       {Section{"naca0012", 0.5, 0.0, 155}, {"naca0012", 0.8, 1.25, 275}, {"naca64a010", 0.8, 0.0, 275}}) {
-    MultigridCase c(section_mesh(s.name, 128, 32, 1, 60.0), s.mach, s.angle_deg);
-    const auto result = solve_by_cycles(c, {}).result;
-    EXPECT_EQ(result.status, SolveStatus::converged) << s.name << " at Mach " << s.mach;
-    EXPECT_LE(result.cycles, s.cycles) << s.name << " at Mach " << s.mach;
-    EXPECT_EQ(result.retreats, 0);
-  }
-}
-
-int cycles_of(int harmonics, double reduced_frequency) {
-  MultigridCase c(small_mesh(), 0.796, 0.0, TimeSpectral(harmonics), reduced_frequency, 0.1);
-  const auto result = solve_by_cycles(c, {}).result;
-  EXPECT_EQ(result.status, SolveStatus::converged);
-  return result.cycles;
-}
-
-// The modulus holds back each harmonic where its own frequency demands it, and no other.
-TEST(Multigrid, NeedsNoMoreCyclesForMoreHarmonicsOrAHigherFrequency) {
-  const int steady = cycles_of(0, 0.0);
-  for (int harmonics : {1, 2, 3})
-    EXPECT_LE(cycles_of(harmonics, 0.2), 1.25 * steady) << harmonics << " harmonics, " << steady;
-  EXPECT_LE(cycles_of(3, 2.0), 1.25 * steady) << "ten times the frequency, " << steady;
-}
-
 TEST(Multigrid, PathDependsOnRanksAndBlocksByTheSmoothingsTruncationOnly) {
   const auto solved = [](int blocks, const Comm& ranks) {
     MultigridCase c(section_mesh("naca0012", 96, 32, blocks, 60.0), 0.8, 1.25, TimeSpectral(0), 0.0, 0.0,
