@@ -17,6 +17,7 @@ struct Size {
   int around, normal;
   std::string name() const { return std::to_string(around) + "x" + std::to_string(normal); }
 };
+constexpr Size tiny{16, 4}, block{16, 16}, square{64, 64};  // what many ranks leave each
 constexpr Size small{128, 32}, medium{250, 50}, halved{256, 64}, large{512, 128};
 
 // The flow is made when its benchmark runs, so that only what the filter selects is made.
@@ -160,7 +161,9 @@ void add_all(const Comm& comm) {
     add("Runge-Kutta stage", comm, halved, harmonics, runge_kutta_stage);
     add("W cycle", comm, halved, harmonics, w_cycle);
   }
+  for (const Size size : {tiny, block, square}) add("Runge-Kutta stage", comm, size, 3, runge_kutta_stage);
   add("Runge-Kutta stage", comm, large, 0, runge_kutta_stage);
+  add("W cycle", comm, large, 3, w_cycle);
   add("W cycle", comm, large, 0, w_cycle);
   add("residual smoothing", comm, halved, 0, residual_smoothing);
   add("grid transfers", comm, halved, 0, grid_transfers);

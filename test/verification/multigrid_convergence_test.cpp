@@ -39,14 +39,14 @@ void expect_ten_orders(const Section& s, int around, int normal) {
 
 TEST(MultigridConvergence, ResidualOfSteadyFlowFallsTenOrders) {
   for (const Section& s :
-       {Section{"naca0012", 0.5, 0.0, 155}, {"naca0012", 0.8, 1.25, 275}, {"naca64a010", 0.8, 0.0, 275}})
+       {Section{"naca0012", 0.5, 0.0, 185}, {"naca0012", 0.8, 1.25, 295}, {"naca64a010", 0.8, 0.0, 305}})
     expect_ten_orders(s, 128, 32);
   if (!is_nightly()) return;
   for (const Section& s :
-       {Section{"naca0012", 0.5, 0.0, 195}, {"naca0012", 0.8, 1.25, 380}, {"naca64a010", 0.8, 0.0, 455}})
+       {Section{"naca0012", 0.5, 0.0, 220}, {"naca0012", 0.8, 1.25, 430}, {"naca64a010", 0.8, 0.0, 530}})
     expect_ten_orders(s, 256, 64);
   // 25 is odd: one coarse mesh is all that 250 x 50 has.
-  expect_ten_orders({"naca64a010", 0.8, 0.0, 450}, 250, 50);
+  expect_ten_orders({"naca64a010", 0.8, 0.0, 500}, 250, 50);
 }
 
 // Case CT6 of AGARD R-702: NACA 64A010 at Mach 0.796, 1.01 deg about the quarter chord, k = 0.202.
@@ -57,11 +57,11 @@ void expect_ten_orders_of_ct6(int around, int normal, int harmonics, int cycles)
 }
 
 TEST(MultigridConvergence, ResidualOfForcedPitchFallsTenOrders) {
-  expect_ten_orders_of_ct6(64, 16, 1, 320);
+  expect_ten_orders_of_ct6(64, 16, 1, 305);
   if (!is_nightly()) return;
-  expect_ten_orders_of_ct6(128, 32, 1, 300);
-  expect_ten_orders_of_ct6(128, 32, 2, 315);
-  expect_ten_orders_of_ct6(128, 32, 3, 330);
+  expect_ten_orders_of_ct6(128, 32, 1, 345);
+  expect_ten_orders_of_ct6(128, 32, 2, 355);
+  expect_ten_orders_of_ct6(128, 32, 3, 340);
 }
 
 int cycles_of_pitch(int harmonics, double reduced_frequency) {
@@ -74,11 +74,12 @@ int cycles_of_pitch(int harmonics, double reduced_frequency) {
   return result.cycles;
 }
 
-// Each harmonic is held back where its own frequency demands it, and holds up no other.
-TEST(MultigridConvergence, CyclesHardlyGrowWithTheNumberOfHarmonics) {
+// Held back, a harmonic takes its own shorter step and the others do not: neither the number of
+// harmonics nor a frequency ten times as high costs more than a tenth of the cycles.
+TEST(MultigridConvergence, CyclesHardlyGrowWithHarmonicsOrFrequency) {
   const int steady = cycles_of_pitch(0, 0.0);
-  for (int harmonics : {1, 2, 3})
-    EXPECT_LE(cycles_of_pitch(harmonics, 0.2), 1.4 * steady) << harmonics << " harmonics, " << steady;
+  for (const auto& [harmonics, k] : {std::pair{1, 0.2}, {3, 0.2}, {1, 2.0}})
+    EXPECT_LE(cycles_of_pitch(harmonics, k), 1.1 * steady) << harmonics << " harmonics at k = " << k;
 }
 
 }  // namespace
