@@ -164,6 +164,7 @@ CycleSolution CycleSolver::solve_coupled_at_speed(const std::string& stage, Cycl
     start = grown(total.state, start.rest, search.energy());
   }
   total.status = SolveStatus::iteration_limit;
+  total.is_search_exhausted = true;
   return total;
 }
 

@@ -27,6 +27,7 @@ struct CycleSolution {
   int factorizations = 0;
   int staggered_iterations = 0;
   int flow_cycles = 0;
+  bool is_search_exhausted = false;  // the energy of the given speed was not found
 };
 
 // Finds flutter and limit cycles on one mesh by the case's method, with lines of progress and of

@@ -21,10 +21,10 @@ FlowCycles::FlowCycles(Context& context, const FlowLevel<2>& level, FlowEquation
       multigrid_(flow, {level.mesh, level.partition}, options_.multigrid) {
   const auto& asked = context.settings.pseudo_time.levels;
   if (asked && multigrid_.levels() < *asked)
-    throw InputError(
-        fmt::format("{} = {}: the mesh gives {} ({}); ask for fewer, or use cell counts divisible by {}",
-                    context.place("pseudo_time.levels"), *asked, multigrid_.levels(),
-                    describe_limit<2>(level.mesh, level.partition), 1 << (*asked - 1)));
+    throw InputError(fmt::format(
+        "{} = {}: the mesh gives {} ({}); ask for fewer, or use cell counts divisible by {}",
+        context.place("pseudo_time.levels"), *asked, multigrid_.levels(),
+        describe_limit<2>(level.mesh, level.partition, least_multigrid_cells), 1 << (*asked - 1)));
 }
 
 std::vector<double> FlowCycles::start(const std::vector<MotionState>& motions, double kappa) {
@@ -67,16 +67,15 @@ std::string cycles_advice(SolveStatus status, double tolerance, const PseudoTime
     case SolveStatus::iteration_limit:
       return fmt::format(
           "Runge-Kutta cycles did not bring the flow residual to {:.1e} in pseudo_time.max_cycles = {}; "
-          "allow "
-          "more and continue with --restart solution.cgns, or let Newton finish with solver.flow_method = "
-          "runge_kutta_newton",
+          "allow more and continue with --restart solution.cgns, or let Newton finish with "
+          "solver.flow_method = runge_kutta_newton",
           tolerance, settings.max_cycles);
     case SolveStatus::diverged:
       return fmt::format(
-          "Runge-Kutta cycles diverged {} times, each time at half the CFL number; start with a smaller "
-          "pseudo_time.cfl, or from less: a lower flow.mach or amplitude with --restart; or look at the mesh "
-          "with `wingbeat mesh`",
-          settings.max_retreats + 1);
+          "Runge-Kutta cycles diverged with the CFL number halved pseudo_time.max_retreats = {} times; start "
+          "with a smaller pseudo_time.cfl, or from less: a lower flow.mach or amplitude with --restart; or "
+          "look at the mesh with `wingbeat mesh`",
+          settings.max_retreats);
     case SolveStatus::interrupted:
       return "stopped by a signal or --walltime; continue with --restart solution.cgns";
     default:

@@ -55,14 +55,17 @@ Vec<double, 2> rotation_axis(const CaseSettings& settings) {
   return {{{settings.pitch.axis[0], settings.pitch.axis[1]}}};
 }
 
+PartitionOptions partition_options(const CaseSettings& settings) {
+  return {.imbalance = settings.partition.imbalance,
+          .granularity = settings.solver.uses_cycles() ? settings.pseudo_time.granularity() : 1};
+}
+
 template <int Dim>
 FlowLevels<Dim> make_levels(Context& context, const MultiblockMesh<Dim>& mesh) {
   const auto part = context.timer.measure("mesh");
   const CaseSettings& settings = context.settings;
   // The Schwarz overlap counts layers of the matrix, which reaches two cells to each side.
-  const int granularity = settings.solver.uses_cycles() ? settings.pseudo_time.granularity() : 1;
-  const FlowLevelOptions options{{settings.partition.imbalance, granularity},
-                                 (settings.solver.overlap + 1) / 2};
+  const FlowLevelOptions options{partition_options(settings), (settings.solver.overlap + 1) / 2};
   FlowLevels<Dim> levels;
   auto meshes = mesh_sequence(settings.mesh, mesh, settings.solver.coarse_levels);
   for (auto& level_mesh : meshes) {

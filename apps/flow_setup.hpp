@@ -17,6 +17,9 @@ SectionKinematics section_kinematics(const CaseSettings& settings);
 // has a structure, else pitch.axis.
 Vec<double, 2> rotation_axis(const CaseSettings& settings);
 
+// How the case's meshes are divided: at planes that multigrid can coarsen where it is used.
+PartitionOptions partition_options(const CaseSettings& settings);
+
 // The case's mesh and the coarser ones that grid sequencing starts from, coarsest first, shared
 // among the ranks; prints their sizes and the partition. Collective.
 template <int Dim>

@@ -27,6 +27,20 @@ double first_energy(const CycleAmplitude& amplitude) {
   return std::get<GivenSpeed>(amplitude).initial_energy;
 }
 
+// What to do about a cycle that was not found. At the speed given there may be none: the energy of the
+// search then vanishes.
+std::string advice(const CaseSettings& settings, const CycleAmplitude& amplitude,
+                   const CycleSolution& solution, double energy) {
+  const auto* given = std::get_if<GivenSpeed>(&amplitude);
+  const bool has_vanished = given && energy < 1e-3 * given->initial_energy;
+  if (solution.status == SolveStatus::interrupted || !(solution.is_search_exhausted || has_vanished))
+    return cycle_advice(settings, solution);
+  return fmt::format(
+      "no cycle was found at lco.reduced_velocity = {:g}; the last one tried has V = {:.6f} at E_0 = {:.1e}; "
+      "see the V of some lco.energies, since the branch may not reach that speed, and start from the nearest",
+      given->reduced_velocity, section_kinematics(settings).reduced_velocity(solution.state.r), energy);
+}
+
 void write_table(Context& context, const nlohmann::ordered_json& cycles) {
   CsvTable table({"energy", "reduced_velocity", "frequency_ratio", "pitch_amplitude_deg", "plunge_amplitude",
                   "flow_residual", "structure_residual"});
@@ -70,7 +84,8 @@ SolveStatus run_lco(Context& context) {
     write_table(context, cycles);
     if (solution.status != SolveStatus::converged) {
       context.result.message =
-          fmt::format("cycle {} of {}: {}", i + 1, list.size(), cycle_advice(settings, solution));
+          fmt::format("cycle {} of {}: {}", i + 1, list.size(),
+                      advice(settings, list[i], solution, cycles.back()["energy"].get<double>()));
       return solution.status;
     }
     if (i + 1 < list.size()) start = solver.grown(solution.state, start.rest, first_energy(list[i + 1]));

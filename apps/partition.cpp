@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "apps/case_mesh.hpp"
+#include "apps/flow_setup.hpp"
 #include "apps/verbs.hpp"
 #include "core/spectral/time_spectral.hpp"
 
@@ -25,7 +26,7 @@ SolveStatus run_partition(Context& context) {
   const AnyMesh mesh = make_case_mesh(context.settings.mesh);
   std::visit(
       [&]<int Dim>(const MultiblockMesh<Dim>& built) {
-        const PartitionOptions options{.imbalance = context.settings.partition.imbalance};
+        const PartitionOptions options = partition_options(context.settings);
         const auto partition = partition_mesh(built, context.planned_ranks, options);
         const auto statistics = partition_statistics(built, partition, instances);
         context.log.line(statistics_table(statistics, built.cell_count(), instances));

@@ -6,8 +6,9 @@
 
 One column for each number of ranks or variant; the first is the one that the others are compared
 with. Wall seconds are those of result.json, of the quickest of R rounds; the rounds go through all
-columns in turn, so that other load on the machine meets them alike. Peak memory is that of the
-largest process.
+columns in turn, so that other load on the machine meets them alike. CPU seconds, of all processes,
+are the least of the rounds: they suffer less from other load. Peak memory is that of the largest
+process.
 """
 import argparse
 import json
@@ -26,7 +27,7 @@ ENVIRONMENT = {
 
 
 def run(wingbeat, verb, case, ranks, overrides):
-    """Wall seconds by part, and peak memory of the largest process in bytes."""
+    """Wall seconds by part, CPU seconds, and peak memory of the largest process in bytes."""
     with tempfile.TemporaryDirectory() as folder:
         command = ["mpirun", "-n", str(ranks)] if ranks > 1 else []
         command += [wingbeat, verb, case, *overrides, "--output", folder]
@@ -38,7 +39,8 @@ def run(wingbeat, verb, case, ranks, overrides):
         if status != 0:
             sys.exit(f"{' '.join(command)} failed:\n{output}")
         with open(os.path.join(folder, "result.json"), encoding="utf-8") as file:
-            return json.load(file)["wall_seconds"], 1024 * usage.ru_maxrss
+            wall = json.load(file)["wall_seconds"]
+    return wall, usage.ru_utime + usage.ru_stime, 1024 * usage.ru_maxrss
 
 
 def main():
@@ -58,10 +60,11 @@ def main():
     for name, *overrides in options.variant:
         columns[name] = (options.ranks[0], options.set + overrides)
 
-    best = {}
+    best, least_cpu = {}, {}
     for _ in range(options.rounds):
         for name, (ranks, overrides) in columns.items():
-            seconds, memory = run(options.wingbeat, options.verb, options.case, ranks, overrides)
+            seconds, cpu, memory = run(options.wingbeat, options.verb, options.case, ranks, overrides)
+            least_cpu[name] = min(cpu, least_cpu.get(name, cpu))
             if name not in best or seconds["total"] < best[name][0]["total"]:
                 best[name] = seconds, memory
 
@@ -72,6 +75,7 @@ def main():
     for part in parts:
         row = "".join(f"{best[name][0].get(part, 0.0):>16.3f}" for name in columns)
         print(f"{part:<28}{row}")
+    print(f"{'CPU, all processes':<28}" + "".join(f"{least_cpu[name]:>16.3f}" for name in columns))
     print(f"{'GB, largest process':<28}" + "".join(f"{best[name][1] * 1e-9:>16.3f}" for name in columns))
     totals = [best[name][0]["total"] for name in columns]
     print(f"{'first column / this one':<28}" + "".join(f"{totals[0] / total:>16.2f}" for total in totals))

@@ -19,9 +19,6 @@ int coarsest_steps(const MultiblockMesh<Dim>& mesh) {
   return std::max(4, cells / 2);
 }
 
-// Zones coarser than this no longer resemble the flow.
-constexpr int least_cells = 4;
-
 }  // namespace
 
 template <int Dim>
@@ -47,7 +44,7 @@ Multigrid<Dim>::Multigrid(FlowEquations<Dim>& flow, const DividedMesh<Dim>& mesh
   const Partition<Dim>* finer_partition = &mesh.partition;
   const FlowDomain<Dim>* finer_domain = &flow.domain();
   while (!options.levels || levels() < *options.levels) {
-    auto grid = coarsened<Dim>(*finer_mesh, *finer_partition, least_cells);
+    auto grid = coarsened<Dim>(*finer_mesh, *finer_partition, least_multigrid_cells);
     if (!grid) break;
     coarse_.push_back(
         std::make_unique<CoarseLevel<Dim>>(std::move(*grid), model, flow.time(), *finer_domain));

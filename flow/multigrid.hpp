@@ -19,6 +19,9 @@ struct DividedMesh {
   const Partition<Dim>& partition;
 };
 
+// Cells of a zone in each direction below which a mesh no longer resembles the flow.
+inline constexpr int least_multigrid_cells = 4;
+
 struct MultigridOptions {
   std::optional<int> levels;  // meshes, the finest included; unset: as many as every block allows
   int recursion = 2;          // coarse-mesh visits a visit of the next finer mesh: 1 = V cycle, 2 = W cycle

@@ -28,13 +28,11 @@ PseudoTimeResult pseudo_time(FlowEquations<Dim>& flow, Multigrid<Dim>& multigrid
     const bool is_good = norm < hopeless_residual && !comm.any(!is_physical<Dim>(w, gamma));
     result.cfl = step.cfl;
     if (std::isfinite(norm)) result.residual = norm;
-    if (observer && comm.any(!observer({result.cycles, norm, step.cfl, result.retreats}))) {
+    const bool is_stopped = observer && comm.any(!observer({result.cycles, norm, step.cfl, result.retreats}));
+    const bool is_converged = norm <= options.tolerance;
+    if (is_converged || is_stopped) {
       std::copy(before.begin(), before.end(), w.begin());
-      return result.status = SolveStatus::interrupted, result;
-    }
-    if (norm <= options.tolerance) {
-      std::copy(before.begin(), before.end(), w.begin());
-      return result.status = SolveStatus::converged, result;
+      return result.status = is_converged ? SolveStatus::converged : SolveStatus::interrupted, result;
     }
     if (!is_good) {
       std::copy(good.begin(), good.end(), w.begin());
@@ -55,7 +53,8 @@ std::vector<double> full_multigrid_start(const FlowEquations<Dim>& flow, const D
                                          const PseudoTimeOptions& options,
                                          const PseudoTimeObserver& observer) {
   std::optional<CoarseGrid<Dim>> grid;
-  if (options.multigrid.levels.value_or(2) > 1) grid = coarsened<Dim>(mesh.mesh, mesh.partition);
+  if (options.multigrid.levels.value_or(2) > 1)
+    grid = coarsened<Dim>(mesh.mesh, mesh.partition, least_multigrid_cells);
   if (!grid) return flow.uniform_state();
   const Comm& comm = flow.domain().comm();
   const LocalMesh<Dim> local = build_local_mesh<Dim>(grid->mesh, grid->partition, comm.rank());

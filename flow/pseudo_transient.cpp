@@ -72,9 +72,10 @@ PseudoTransientResult pseudo_transient(FlowEquations<Dim>& flow, const MotionSta
   bool refactor = true;
   PseudoTransientIteration report{0, result.residual, cfl, 0.0, 0, false};
   while (true) {
-    if (observer && comm.any(!observer(report))) return result.status = SolveStatus::interrupted, result;
+    const bool is_stopped = observer && comm.any(!observer(report));
     if (!std::isfinite(result.residual)) return result.status = SolveStatus::diverged, result;
     if (result.residual <= options.tolerance) return result.status = SolveStatus::converged, result;
+    if (is_stopped) return result.status = SolveStatus::interrupted, result;
     if (result.iterations == options.max_iterations)
       return result.status = SolveStatus::iteration_limit, result;
 

@@ -56,8 +56,9 @@ class NewtonSolve {
     NewtonIteration line{.residual_norm = result_.residual_norm};
     for (;;) {
       if (!std::isfinite(result_.residual_norm)) return end(SolveStatus::diverged);
-      if (observer && comm_.any(!observer(line, u_, f_))) return end(SolveStatus::interrupted);
+      const bool is_stopped = observer && comm_.any(!observer(line, u_, f_));
       if (!comm_.any(!problem_.is_converged(f_))) return end(SolveStatus::converged);
+      if (is_stopped) return end(SolveStatus::interrupted);
       if (result_.iterations >= options_.max_iterations) return end(SolveStatus::iteration_limit);
 
       const double norm_before = result_.residual_norm;

@@ -7,6 +7,11 @@
 namespace wingbeat {
 namespace {
 
+const std::string paper_section =
+    "[mesh]\nairfoil = \"naca64a010\"\ncells = [48, 12]\n[structure]\nelastic_axis = -0.6\n"
+    "static_unbalance = 0.25\ngyration_radius_squared = 0.75\nfrequency_ratio = 0.5\nmass_ratio = 75\n";
+const std::string pitching = "[pitch]\namplitude_deg = 1.0\nreduced_frequency = 0.2\n";
+
 // Each fault a user can make must end the program with status 2, a message that says what to do
 // and a result.json that says the same.
 class BadInput : public Program {
@@ -70,7 +75,7 @@ TEST_F(BadInput, NeitherAirfoilNorFile) {
 }
 
 TEST_F(BadInput, EveryVerbChecksItsCaseFirst) {
-  for (const std::string verb : {"steady", "pitch", "flutter", "pk", "mesh", "partition"})
+  for (const std::string verb : {"steady", "pitch", "flutter", "lco", "pk", "mesh", "partition"})
     expect_refused(run_case(verb, "[mesh]\nairfoil = \"naca0012\"\n[flow]\nmahc = 0.8\n"), "out",
                    "case.toml:4: flow.mahc = 0.8: unknown key; did you mean flow.mach?");
 }
@@ -107,6 +112,52 @@ TEST_F(BadInput, PitchBeyondTheHarmonicsKept) {
   EXPECT_EQ(run({"pitch", "case.toml", "time.harmonics=3", "--dry-run"}).exit_code, 0);
   EXPECT_EQ(run({"pitch", "case.toml", "pitch.sine_deg=[1, 0, 0]", "--dry-run"}).exit_code, 0)
       << "zeros do not move";
+}
+
+TEST_F(BadInput, UnknownScheme) {
+  expect_refused(run_case("steady", "[mesh]\nairfoil = \"naca0012\"\n[flow]\nscheme = \"rose\"\n"), "out",
+                 "case.toml:4: flow.scheme = \"rose\": allowed: \"jst\", \"matrix\", \"cusp\", \"roe\", "
+                 "\"van_leer\"; did you mean \"roe\"?");
+}
+
+TEST_F(BadInput, UnknownWaysOfSolving) {
+  const auto run =
+      run_case("flutter", paper_section + "[solver]\nmethod = \"stagered\"\nflow_method = \"rk\"\n");
+  expect_refused(run, "out", "2 faults in the case:");
+  expect_in("solver.method = \"stagered\": allowed: \"coupled\", \"staggered\"; did you mean \"staggered\"?",
+            run.errors);
+  expect_in("solver.flow_method = \"rk\": allowed: \"newton\", \"runge_kutta\", \"runge_kutta_newton\"",
+            run.errors);
+}
+
+TEST_F(BadInput, CourantNumberOutOfRange) {
+  for (const std::string cfl : {"0", "1e6"})
+    expect_refused(run_case("steady", "[mesh]\nairfoil = \"naca0012\"\n[pseudo_time]\ncfl = " + cfl + "\n"),
+                   "out", "case.toml:4: pseudo_time.cfl = ");
+  expect_in("out of range; allowed: > 0, <= 100", result("out")["message"]);
+}
+
+// 250 x 50 cells are halved once, to 125 x 25: a third mesh has no half of 125.
+TEST_F(BadInput, MoreMeshesThanTheCellsGive) {
+  const std::string reason =
+      "pseudo_time.levels = 4: the mesh gives 2 (halved once, zone \"block-1\" has 125 x 25 cells: 125 is "
+      "odd); "
+      "ask for fewer, or use cell counts divisible by 8";
+  const std::string keys =
+      "[pseudo_time]\nlevels = 4\n[mesh]\nairfoil = \"naca64a010\"\ncells = [250, 50]\n[solver]\n";
+  expect_refused(run_case("steady", keys + "flow_method = \"runge_kutta\"\n", 2), "out",
+                 "case.toml:2: " + reason);
+  expect_refused(run_case("pitch", keys + "flow_method = \"runge_kutta\"\n" + pitching), "out",
+                 "case.toml:2: " + reason);
+}
+
+TEST_F(BadInput, LimitCycleOfNoEnergyOrSpeed) {
+  const std::string message =
+      "lco.energies: no cycle is asked for; give this key (a list of E_0) or lco.reduced_velocity";
+  expect_refused(run_case("lco", paper_section, 2), "out", "case.toml: " + message);
+  expect_refused(run_case("lco", paper_section + "[lco]\nenergies = []\n"), "out", message);
+  expect_refused(run_case("lco", paper_section + "[lco]\nenergies = [1e-6, -1.0]\n"), "out",
+                 "entry 2: out of range; allowed: > 0");
 }
 
 // The same keys of the undeformed section serve the other verbs, which need no motion.

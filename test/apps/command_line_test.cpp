@@ -19,7 +19,7 @@ TEST_F(CommandLineOfProgram, HelpAndVersionSucceed) {
   const auto help = run({"--help"});
   EXPECT_EQ(help.exit_code, 0);
   for (const std::string verb :
-       {"steady", "pitch", "flutter", "pk", "mesh", "partition", "plot", "reference"})
+       {"steady", "pitch", "flutter", "lco", "pk", "mesh", "partition", "plot", "reference"})
     expect_in(verb, help.output);
   expect_in("section.key=value", run({"mesh", "--help"}).output);
   const auto version = run({"--version"});

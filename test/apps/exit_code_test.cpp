@@ -1,9 +1,4 @@
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <chrono>
 #include <csignal>
-#include <thread>
 
 #include "test/apps/program.hpp"
 
@@ -17,23 +12,6 @@ class ExitCode : public Program {
     Program::SetUp();
     program_ = WINGBEAT_WITH_FAKE_VERBS;
     write("case.toml", "");
-  }
-
-  // Starts `wait` on one rank, sends the signal once it is at work, and returns its exit code.
-  int signalled(int signal) const {
-    std::filesystem::remove(folder_ / "out.txt");
-    const pid_t child = ::fork();
-    if (child == 0) {
-      if (::chdir(folder_.c_str()) != 0 || !std::freopen("out.txt", "w", stdout)) ::_exit(99);
-      ::execl(program_.c_str(), program_.c_str(), "wait", "case.toml", "--output", "out", nullptr);
-      ::_exit(98);
-    }
-    for (int i = 0; i < 3000 && read("out.txt").find("waiting") == std::string::npos; ++i)
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    ::kill(child, signal);
-    int status = 0;
-    ::waitpid(child, &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
 };
 
@@ -69,7 +47,7 @@ TEST_F(ExitCode, FailureOfOneRankEndsAll) {
 
 TEST_F(ExitCode, FourWhenStoppedBySignal) {
   for (const int signal : {SIGTERM, SIGUSR1}) {
-    EXPECT_EQ(signalled(signal), 4);
+    EXPECT_EQ(run_and_signal({"wait", "case.toml", "--output", "out"}, "waiting", signal), 4);
     EXPECT_EQ(result("out")["status"], "interrupted");
     expect_in("stopped by a signal", result("out")["message"].get<std::string>());
     expect_in("checkpoint", read("out/log.txt"));

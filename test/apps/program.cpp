@@ -3,9 +3,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
+#include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <thread>
 
 namespace wingbeat {
 
@@ -51,6 +55,28 @@ ProgramRun Program::run(const std::vector<std::string>& arguments, int ranks) co
   command += " > " + quoted(output.string()) + " 2> " + quoted(errors.string()) + " < /dev/null";
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(output), read_text(errors)};
+}
+
+int Program::run_and_signal(const std::vector<std::string>& arguments, const std::string& awaited,
+                            int signal) const {
+  fs::remove(folder_ / ".output");
+  std::vector<std::string> words = arguments;
+  words.insert(words.begin(), program_);
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    if (::chdir(folder_.c_str()) != 0 || !std::freopen(".output", "w", stdout)) ::_exit(99);
+    ::execv(program_.c_str(), pointers.data());
+    ::_exit(98);
+  }
+  for (int i = 0; i < 6000 && read(".output").find(awaited) == std::string::npos; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  ::kill(child, signal);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
 void Program::write(const std::string& name, const std::string& text) const {

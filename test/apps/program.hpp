@@ -24,6 +24,8 @@ class Program : public ::testing::Test {
   void TearDown() override;
 
   ProgramRun run(const std::vector<std::string>& arguments, int ranks = 0) const;
+  // Sends the signal once the program, on one rank, has printed `awaited`; its exit code.
+  int run_and_signal(const std::vector<std::string>& arguments, const std::string& awaited, int signal) const;
   void write(const std::string& name, const std::string& text) const;
   std::string read(const std::string& name) const;
   nlohmann::json result(const std::string& output) const;  // of DIR/result.json

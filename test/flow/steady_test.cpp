@@ -1,22 +1,16 @@
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 
 #include "core/mesh/plot3d.hpp"
 #include "test/flow/every_scheme.hpp"
 #include "test/flow/steady_case.hpp"
+#include "test/nightly.hpp"
 
 namespace wingbeat {
 namespace {
 
 using namespace testing;
-
-// Cases of minutes are for the night: WINGBEAT_NIGHTLY=1.
-bool is_nightly() {
-  const char* value = std::getenv("WINGBEAT_NIGHTLY");
-  return value != nullptr && std::string(value) == "1";
-}
 
 struct Section {
   const char* name;

@@ -1,19 +1,13 @@
 #include <cmath>
-#include <cstdlib>
 
 #include "test/apps/program.hpp"
+#include "test/nightly.hpp"
 
 namespace wingbeat {
 namespace {
 
-// Large meshes are for the night: WINGBEAT_NIGHTLY=1.
-bool is_nightly() {
-  const char* value = std::getenv("WINGBEAT_NIGHTLY");
-  return value && std::string(value) == "1";
-}
-
 // Flow and structure by turns, and all rows at once, solve the same equations. The flow residual allowed,
-// 1e-10, over the weight 1e-3 of the structural rows leaves V some 1e-7; omega likewise.
+// 1e-10, over the least pitch amplitude here, 3e-4 rad, leaves loads, V and omega some 3e-7.
 constexpr double method_tolerance = 1e-6;
 
 class Staggered : public Program {
@@ -53,7 +47,7 @@ class StaggeredOnMesh : public Staggered {
       const std::vector<std::string> common{"mesh.cells=" + cells, "flutter.energy=" + energy};
       auto staggered = common;
       staggered.push_back("solver.method=staggered");
-      const auto coupled = solve("flutter", common, ranks.back());
+      const auto coupled = solve("flutter", common, ranks.front());
       EXPECT_EQ(coupled["flow_cycles"], 0);
       for (const int n : ranks) {
         const auto turns = solve("flutter", staggered, n);
@@ -77,11 +71,11 @@ TEST_F(StaggeredOnMesh, AndCoupledGiveTheSameFlutterPointAndLimitCycle) {
 }
 
 TEST_F(StaggeredOnMesh, AndCoupledAgreeOnThePapersMeshes) {
-  if (!is_nightly()) GTEST_SKIP() << "set WINGBEAT_NIGHTLY=1";
+  if (!testing::is_nightly()) GTEST_SKIP() << "set WINGBEAT_NIGHTLY=1";
   for (const std::string cells : {"[250,50]", "[256,64]"}) expect_methods_agree(cells, {2}, false);
 }
 
-// V' of the branch is about 20 in E: the speed of a cycle known to 1e-9 has its energy to 1e-7.
+// dV/dE is about 25 on this branch: a speed known to 1e-8 leaves E = 4e-3 some 1e-7 of itself.
 TEST_F(Staggered, GivenSpeedReturnsTheEnergyWhoseSpeedItIs) {
   const std::vector<std::string> coarse{"mesh.cells=[48,12]"};
   const auto branch = solve("lco", {coarse[0], "lco.energies=[1e-3, 4e-3]"});

@@ -1,19 +1,12 @@
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 #include "test/flow/multigrid_case.hpp"
+#include "test/nightly.hpp"
 
 namespace wingbeat {
 namespace {
 
 using namespace testing;
-
-// Large meshes are for the night: WINGBEAT_NIGHTLY=1.
-bool is_nightly() {
-  const char* value = std::getenv("WINGBEAT_NIGHTLY");
-  return value != nullptr && std::string(value) == "1";
-}
 
 // Cycles allowed: a fifth more than it takes.
 void expect_ten_orders(MultigridCase& c, int cycles, const std::string& name) {
