@@ -40,9 +40,9 @@ std::string coupled_advice(SolveStatus status, const SolverSettings& settings) {
           "flutter.energy with --restart, or raise solver.max_linear_iterations = {} if that many were used",
           settings.max_linear_iterations);
     case SolveStatus::diverged:
-      return "Newton on the coupled problem diverged; start from the solution of a smaller flutter.energy "
-             "with "
-             "--restart";
+      return "Newton on the coupled problem diverged, or had no flow to start with; start from the solution "
+             "of a smaller flutter.energy with --restart, go there by `wingbeat lco` with lco.energies in "
+             "between, or use solver.method = staggered";
     case SolveStatus::interrupted:
       return "stopped by a signal or --walltime; continue with --restart solution.cgns";
   }
@@ -65,9 +65,10 @@ std::string staggered_advice(SolveStatus status, const StaggeredSettings& settin
              "solution of a smaller amplitude with --restart, or use solver.method = coupled";
     case SolveStatus::diverged:
       return fmt::format(
-          "the staggered iteration diverged {} times; lower pseudo_time.cfl, raise staggered.flow_cycles, or "
-          "start from the solution of a smaller amplitude with --restart",
-          settings.max_recoveries + 1);
+          "the staggered iteration diverged with the relaxation halved staggered.max_recoveries = {} times; "
+          "lower pseudo_time.cfl, raise staggered.flow_cycles, or start from the solution of a smaller "
+          "amplitude with --restart",
+          settings.max_recoveries);
     case SolveStatus::interrupted:
       return "stopped by a signal or --walltime; continue with --restart solution.cgns";
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 
 #include "apps/context.hpp"
@@ -19,9 +20,11 @@ struct CycleStart {
 };
 
 struct CycleSolution {
+  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
   SolveStatus status = SolveStatus::iteration_limit;
   AeroelasticState state;
-  AeroelasticResiduals residuals;
+  AeroelasticResiduals residuals{unknown, unknown, unknown, unknown};
   int newton_iterations = 0;
   int linear_iterations = 0;
   int factorizations = 0;
