@@ -30,7 +30,7 @@ class ForcedFlowProblem final : public Problem {
   // stalls at several degrees, its solves an instance being poor where kappa Omega outweighs the fluxes.
   const LinearOperator<double>& preconditioner() const override { return harmonic_; }
   double step_limit(std::span<const double> u, std::span<const double> du) const override;
-  bool is_converged(std::span<const double> f) const override { return measure(f) <= tolerance_; }
+  double excess(std::span<const double> f) const override { return measure(f) / tolerance_; }
 
  private:
   class Jacobian final : public LinearOperator<double> {

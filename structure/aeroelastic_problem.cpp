@@ -134,9 +134,10 @@ AeroelasticResiduals AeroelasticProblem<Dim>::measure(std::span<const double> f)
 }
 
 template <int Dim>
-bool AeroelasticProblem<Dim>::is_converged(std::span<const double> f) const {
+double AeroelasticProblem<Dim>::excess(std::span<const double> f) const {
   const AeroelasticResiduals r = measure(f);
-  return r.flow <= tolerances_.flow && std::max({r.structure, r.phase, r.energy}) <= tolerances_.structure;
+  return std::max(r.flow / tolerances_.flow,
+                  std::max({r.structure, r.phase, r.energy}) / tolerances_.structure);
 }
 
 template <int Dim>

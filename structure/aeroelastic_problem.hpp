@@ -64,7 +64,7 @@ class AeroelasticProblem final : public Problem {
   bool is_factored() const override { return harmonic_.is_factored(); }
   const LinearOperator<double>& preconditioner() const override { return preconditioner_; }
   double step_limit(std::span<const double> u, std::span<const double> du) const override;
-  bool is_converged(std::span<const double> f) const override;
+  double excess(std::span<const double> f) const override;
 
  private:
   bool is_periodic() const { return amplitude_.has_value(); }

@@ -15,6 +15,12 @@ namespace {
 // |F| must fall by at least this part of what the linear model promises (Armijo).
 constexpr double sufficient_decrease = 1e-4;
 
+// A linear residual this far below what is asked of F: solving further would be for nothing.
+constexpr double enough = 0.2;
+
+// Factors are out of date where a digit takes this many times the iterations it took when they were new.
+constexpr double outdated = 1.5;
+
 // Choice 2 of Eisenstat & Walker with its safeguard against tightening too early
 // (doi:10.1137/0917003, gamma = 0.9, alpha = golden ratio).
 double next_forcing(double previous, double norm_ratio, const NewtonOptions& options) {
@@ -57,7 +63,8 @@ class NewtonSolve {
     for (;;) {
       if (!std::isfinite(result_.residual_norm)) return end(SolveStatus::diverged);
       const bool is_stopped = observer && comm_.any(!observer(line, u_, f_));
-      if (!comm_.any(!problem_.is_converged(f_))) return end(SolveStatus::converged);
+      const double excess = comm_.max(problem_.excess(f_));
+      if (excess <= 1.0) return end(SolveStatus::converged);
       if (is_stopped) return end(SolveStatus::interrupted);
       if (result_.iterations >= options_.max_iterations) return end(SolveStatus::iteration_limit);
 
@@ -65,7 +72,7 @@ class NewtonSolve {
       problem_.linearize(u_);
       line = {.iteration = result_.iterations + 1};
       if (refactor_due_ || !problem_.is_factored()) refactor(line);
-      if (!advance(forcing, line)) {
+      if (!advance(std::max(forcing, enough / excess), line)) {
         // Old factors may be to blame: once more with new ones, and as exactly as allowed.
         if (line.refactored) return end(failure_);
         refactor(line);
@@ -120,8 +127,8 @@ class NewtonSolve {
           gmres<double>(comm_, problem_.jacobian(), problem_.preconditioner(), rhs_, step_, gmres_options);
       line.linear_iterations += solve.iterations;
       result_.linear_iterations += solve.iterations;
-      refactor_due_ = solve.iterations > options_.refactor_iterations;
       linear_residual = solve.relative_residual;
+      note_pace(solve, line.refactored);
       if (solve.status == GmresStatus::converged) return true;
       if (!line.refactored) {
         refactor(line);  // and go on from where the old factors led
@@ -132,6 +139,13 @@ class NewtonSolve {
       failure_ = solve.status == GmresStatus::not_finite ? SolveStatus::diverged : SolveStatus::stalled;
       return std::isfinite(linear_residual) && linear_residual < 1.0;
     }
+  }
+
+  void note_pace(const GmresResult& solve, bool with_new_factors) {
+    const double digits = std::max(-std::log10(solve.relative_residual), 0.1);
+    const double pace = solve.iterations / digits;
+    refactor_due_ = solve.iterations > options_.refactor_iterations && pace > outdated * new_pace_;
+    if (with_new_factors) new_pace_ = pace;
   }
 
   bool search_line(double linear_residual, NewtonIteration& line) {
@@ -160,6 +174,7 @@ class NewtonSolve {
   NewtonResult result_;
   SolveStatus failure_ = SolveStatus::stalled;
   bool refactor_due_ = false;
+  double new_pace_ = 0.0;  // Krylov iterations a digit with new factors; 0: none were made
 };
 
 }  // namespace

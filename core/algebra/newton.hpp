@@ -30,15 +30,18 @@ class Problem {
   virtual double step_limit(std::span<const double> /*u*/, std::span<const double> /*du*/) const {
     return 1.0;
   }
-  // Whether u is converged by the problem's own measure of its rows, given F(u).
-  virtual bool is_converged(std::span<const double> f) const = 0;
+  // How many times F(u) is above what is asked, by the problem's own measure of its rows: converged
+  // where it is 1 or less on all ranks.
+  virtual double excess(std::span<const double> f) const = 0;
 };
 
 struct NewtonOptions {
   int max_iterations = 30;
   double forcing_max = 1e-1;  // Eisenstat-Walker, choice 2 (doi:10.1137/0917003)
   double forcing_min = 1e-6;
-  int refactor_iterations = 25;  // more Krylov iterations than this in a solve: refactor before the next
+  // More Krylov iterations than this in a solve, and notably more a digit than new factors took: refactor
+  // before the next.
+  int refactor_iterations = 25;
   int max_backtracks = 8;
   GmresOptions gmres{};
 };

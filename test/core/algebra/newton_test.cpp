@@ -35,8 +35,10 @@ class Scalars final : public Problem {
   }
   bool is_factored() const override { return factored_; }
   const LinearOperator<double>& preconditioner() const override { return preconditioner_; }
-  bool is_converged(std::span<const double> f) const override {
-    return std::all_of(f.begin(), f.end(), [&](double value) { return std::abs(value) <= tolerance_; });
+  double excess(std::span<const double> f) const override {
+    double largest = 0.0;
+    for (double value : f) largest = std::max(largest, std::abs(value));
+    return largest / tolerance_;
   }
   static double offset(std::size_t i) { return 1.0 + static_cast<double>(i); }
 
