@@ -13,8 +13,11 @@ void CaseSettings::describe(SettingRegistry& registry) {
   registry.add_section("time", "The period in time.", time);
   registry.add_section(
       "structure", "The pitch-plunge section, made dimensionless by semichord and omega_alpha.", structure);
+  registry.add_section("modal", "A structure by its matrices, in place of [structure], for pk with a table of Q(k).",
+                       modal);
   registry.add_section("flutter", "The flutter boundary and its linear start.", flutter);
   registry.add_section("lco", "Which limit cycles are computed.", lco);
+  registry.add_section("march", "A time-accurate march of flow and section.", march);
   registry.add_section("pk", "The table of frequency and damping against reduced velocity.", pk);
   registry.add_section("solver", "How the equations are solved, and how far.", solver);
   registry.add_section("pseudo_time", "Runge-Kutta multigrid cycles of the flow.", pseudo_time);
@@ -22,14 +25,15 @@ void CaseSettings::describe(SettingRegistry& registry) {
 }
 
 ResolvedCase resolve_case(const std::string& text, const std::string& path,
-                          const std::vector<std::string>& overrides,
-                          const std::vector<std::string>& used_sections, const std::string& reader) {
+                          const std::vector<std::string>& overrides, const UsedSections& used_sections,
+                          const std::string& reader) {
   CaseFile file(text, path);
   for (const auto& assignment : overrides) file.add_override(assignment);
   ResolvedCase resolved;
   SettingRegistry registry;
   resolved.settings.describe(registry);
-  file.apply(registry, used_sections, reader);
+  file.apply(
+      registry, [&] { return used_sections(resolved.settings); }, reader);
   resolved.text = resolved_case(registry);
   for (const auto& section : registry.sections())
     for (const auto& key : section.keys())

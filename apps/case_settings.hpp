@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -14,6 +15,9 @@
 #include "partition/partition_settings.hpp"
 #include "structure/flutter_settings.hpp"
 #include "structure/lco_settings.hpp"
+#include "structure/march_settings.hpp"
+#include "structure/modal_settings.hpp"
+#include "structure/pk_settings.hpp"
 #include "structure/staggered_settings.hpp"
 #include "structure/structure_settings.hpp"
 
@@ -27,8 +31,10 @@ struct CaseSettings {
   PitchSettings pitch;
   TimeSettings time;
   StructureSettings structure;
+  ModalSettings modal;
   FlutterSettings flutter;
   LcoSettings lco;
+  MarchSettings march;
   PkSettings pk;
   SolverSettings solver;
   PseudoTimeSettings pseudo_time;
@@ -48,9 +54,11 @@ struct ResolvedCase {
 };
 
 // Reads a case from its text, its path as the user gave it, and `section.key=value` overrides.
-// Throws InputError listing all faults; required keys are those of `used_sections`.
+// Throws InputError listing all faults; required keys are those of the sections that `used_sections` names
+// for the values read.
+using UsedSections = std::function<std::vector<std::string>(const CaseSettings&)>;
 ResolvedCase resolve_case(const std::string& text, const std::string& path,
-                          const std::vector<std::string>& overrides,
-                          const std::vector<std::string>& used_sections, const std::string& reader);
+                          const std::vector<std::string>& overrides, const UsedSections& used_sections,
+                          const std::string& reader);
 
 }  // namespace wingbeat

@@ -56,6 +56,9 @@ void add_case_verb(CLI::App& app, const Verb& verb, CommandLine& line) {
       ->check(check_seconds, "");
   command->add_flag("--dry-run", line.dry_run,
                     "print the resolved case and what it asks for; compute nothing");
+  if (verb.name == "march")
+    command->add_flag("--find-flutter", line.find_flutter,
+                      "march at several speeds for that at which motion neither grows nor decays");
   if (verb.name == "partition")
     command->add_option("--ranks", line.ranks, "ranks to plan for (default: those that run)")
         ->option_text("N")

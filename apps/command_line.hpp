@@ -18,6 +18,7 @@ struct CommandLine {
   std::optional<int> ranks;        // to plan a partition for
   bool dry_run = false;
   bool markdown = false;
+  bool find_flutter = false;
 
   std::string answer;  // what --help or --version asked for; there is nothing to run then
 };

@@ -14,13 +14,23 @@ nlohmann::ordered_json cycle_entry(const CaseSettings& settings, const Structure
                                    const CycleSolution& solution) {
   const AeroelasticState& state = solution.state;
   const double v = section_kinematics(settings).reduced_velocity(state.r);
-  const Eigen::VectorXcd u = first_harmonic(model, TimeSpectral(settings.time.harmonics), state.y);
+  const TimeSpectral time = time_of(state);
+  const Eigen::VectorXcd u = first_harmonic(model, time, state.y);
   auto entry = flutter_point(settings, v, state.omega);
   entry["freestream_parameter"] = state.r;
   entry["energy"] = fluctuating_energy(model, state.y);
   entry["average_energy"] = average_energy(model, state.y);
   entry["pitch_amplitude_deg"] = std::abs(u[pitch_mode]) * 180.0 / std::numbers::pi;
   entry["plunge_amplitude"] = std::abs(u[plunge_mode]);
+  entry["harmonics"] = time.harmonics();
+  entry["highest_harmonic_share"] =
+      harmonic_energies(model, time, state.y).back() / fluctuating_energy(model, state.y);
+  if (solution.tangent) {
+    entry["velocity_slope"] = solution.tangent->velocity_slope;
+    entry["frequency_slope"] = solution.tangent->frequency_slope;
+    entry["supercritical"] = solution.tangent->is_supercritical();
+  }
+  entry["status"] = to_string(solution.status);
   const AeroelasticResiduals& residuals = solution.residuals;
   entry["residuals"] = {{"flow", residuals.flow},
                         {"structure", residuals.structure},
@@ -45,6 +55,12 @@ void print_cycle(Context& context, const nlohmann::ordered_json& entry) {
   log.line("{:<34}{:.8f}", "reduced frequency k", number("reduced_frequency"));
   log.line("{:<34}{:.6f} deg, plunge {:.3e} semichords", "pitch amplitude", number("pitch_amplitude_deg"),
            number("plunge_amplitude"));
+  if (entry.contains("velocity_slope"))
+    log.line("{:<34}{:+.4f}: {}", "dV/dE_0 along the branch", number("velocity_slope"),
+             entry["supercritical"].get<bool>() ? "greater cycles need greater speed (supercritical)"
+                                                : "greater cycles at lower speed (subcritical)");
+  log.line("{:<34}{}, the highest with {:.1e} of the energy", "harmonics", count("harmonics"),
+           number("highest_harmonic_share"));
   log.line("{:<34}flow {:.1e}, structure {:.1e}, phase {:.1e}, energy {:.1e}", "residuals", residual("flow"),
            residual("structure"), residual("phase"), residual("energy"));
   if (count("flow_cycles") > 0)

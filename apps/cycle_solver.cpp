@@ -9,7 +9,6 @@
 #include "core/spectral/mean_instance.hpp"
 #include "structure/energy.hpp"
 #include "structure/harmonic_motion.hpp"
-#include "structure/staggered_energy_search.hpp"
 
 namespace wingbeat {
 namespace {
@@ -17,7 +16,6 @@ namespace {
 // Structure, phase and energy residuals with which cycles hand over to Newton.
 constexpr double structure_switch = 1e-2;
 constexpr int steps_a_line = 20;
-constexpr int max_speed_iterations = 12;
 
 // The cycle's flow on a finer mesh: that mesh's steady flow and the coarse mesh's departure from its own.
 std::vector<double> refined_flow(const FlowLevel<2>& from, const std::vector<double>& rest,
@@ -33,12 +31,26 @@ std::vector<double> refined_flow(const FlowLevel<2>& from, const std::vector<dou
   return fine;
 }
 
-double amplitude_energy(const CycleAmplitude& amplitude) {
-  if (const auto* given = std::get_if<GivenEnergy>(&amplitude)) return given->energy;
-  return std::get<GivenSpeed>(amplitude).initial_energy;
+// Along the branch r changes by some hundred times the energy's change: the linear solve must show it
+// beside terms of order one.
+double slope_tolerance(double energy) { return std::clamp(1e-3 * energy, 1e-10, 1e-3); }
+
+// The row of a cycle of given energy or speed.
+CycleCondition condition_of(const CycleAmplitude& amplitude, const StructureModel& model) {
+  if (const auto* given = std::get_if<GivenEnergy>(&amplitude)) return energy_condition(model, given->energy);
+  const auto& given = std::get<GivenSpeed>(amplitude);
+  CycleCondition condition(energy_condition(model, given.initial_energy));
+  condition.by_energy = 0.0;
+  condition.by_speed = 1.0;
+  condition.reduced_velocity = given.reduced_velocity;
+  return condition;
 }
 
 }  // namespace
+
+TimeSpectral time_of(const AeroelasticState& state) {
+  return TimeSpectral((static_cast<int>(state.y.size() / 4) - 1) / 2);
+}
 
 CycleStart CycleSolver::linear_start(LinearFlutterSolution<2>& linear, const FlowLevel<2>& linearized,
                                      double energy) {
@@ -81,43 +93,46 @@ CycleStart CycleSolver::grown(AeroelasticState state, const AeroelasticState& re
   return start;
 }
 
-AeroelasticTolerances CycleSolver::tolerances() const {
+void CycleSolver::add_harmonic(HarmonicFactors& factors) const {
+  const HarmonicFactors more = unfactored(level_.comm(), level_.subdomain, state_size<2>, 1);
+  factors.harmonics.push_back(more.harmonics.front());
+}
+
+AeroelasticTolerances CycleSolver::tolerances(double looseness) const {
   const SolverSettings& solver = context_.settings.solver;
-  return {solver.flow_tolerance, solver.structure_tolerance};
+  return {looseness * solver.flow_tolerance, looseness * solver.structure_tolerance};
 }
 
 CycleSolution CycleSolver::solve(const std::string& stage, const CycleStart& start,
                                  const CycleAmplitude& amplitude) {
   const SolverSettings& solver = context_.settings.solver;
-  if (!solver.is_staggered()) {
-    if (const auto* speed = std::get_if<GivenSpeed>(&amplitude))
-      return solve_coupled_at_speed(stage, start, *speed);
-    return solve_coupled(stage, start, amplitude_energy(amplitude));
-  }
+  if (!solver.is_staggered())
+    return solve_coupled(stage, start, condition_of(amplitude, model_), {solver.max_newton_iterations});
   CycleSolution turns = solve_by_turns(stage, start, amplitude);
   if (solver.flow_solver() != "runge_kutta_newton" || turns.status != SolveStatus::converged) return turns;
-  // Newton finishes on all rows at once, at the energy that the turns arrived at.
-  const CycleStart near = restart(turns.state);
-  CycleSolution solution = std::holds_alternative<GivenSpeed>(amplitude)
-                               ? solve_coupled_at_speed(stage, near,
-                                                        {std::get<GivenSpeed>(amplitude).reduced_velocity,
-                                                         fluctuating_energy(model_, turns.state.y)})
-                               : solve_coupled(stage, near, amplitude_energy(amplitude));
+  // Newton finishes on all rows at once, near what the turns arrived at.
+  CycleCondition condition = condition_of(amplitude, model_);
+  condition.energy.energy = fluctuating_energy(model_, turns.state.y);
+  if (const auto* given = std::get_if<GivenEnergy>(&amplitude)) condition.energy.energy = given->energy;
+  CycleSolution solution =
+      solve_coupled(stage, restart(turns.state), condition, {solver.max_newton_iterations});
   solution.staggered_iterations = turns.staggered_iterations;
   solution.flow_cycles = turns.flow_cycles;
   return solution;
 }
 
-CycleSolution CycleSolver::solve_coupled(const std::string& stage, const CycleStart& start, double energy) {
+CycleSolution CycleSolver::solve_coupled(const std::string& stage, const CycleStart& start,
+                                         const CycleCondition& condition, const CoupledOptions& how) {
   const CaseSettings& settings = context_.settings;
   const SectionKinematics kinematics = section_kinematics(settings);
   const auto part = context_.timer.measure("newton");
-  FlowEquations<2> flow(level_.domain, level_.steady.model(), time_);
-  AeroelasticProblem<2> problem(flow, StructuralEquation(model_, time_), kinematics,
-                                energy_condition(model_, energy), start.rest, start.factors, tolerances());
+  const TimeSpectral time = time_of(start.state);
+  FlowEquations<2> flow(level_.domain, level_.steady.model(), time);
+  AeroelasticProblem<2> problem(flow, StructuralEquation(model_, time), kinematics, condition, start.rest,
+                                start.factors, tolerances(how.looseness));
   std::vector<double> u = problem.unknowns(start.state);
   NewtonOptions options;
-  options.max_iterations = settings.solver.max_newton_iterations;
+  options.max_iterations = how.max_iterations;
   options.gmres = gmres_options(settings.solver);
   CycleSolution solution;
   Progress progress(context_.log, stage + ", coupled Newton", {"iter", "|R|", "|S|", "omega", "V", "linear"});
@@ -141,31 +156,14 @@ CycleSolution CycleSolver::solve_coupled(const std::string& stage, const CycleSt
   solution.newton_iterations = result.iterations;
   solution.linear_iterations = result.linear_iterations;
   solution.factorizations = result.factorizations;
-  return solution;
-}
-
-// The energy is sought whose cycle has the speed given: the branch is solved at a sequence of energies.
-CycleSolution CycleSolver::solve_coupled_at_speed(const std::string& stage, CycleStart start,
-                                                  const GivenSpeed& given) {
-  const SectionKinematics kinematics = section_kinematics(context_.settings);
-  const double target = std::pow(given.reduced_velocity / kinematics.reference_velocity, 2);
-  EnergySearch search(target, given.initial_energy);
-  CycleSolution total;
-  for (int k = 0; k < max_speed_iterations; ++k) {
-    CycleSolution found = solve_coupled(stage, start, search.energy());
-    found.newton_iterations += total.newton_iterations;
-    found.linear_iterations += total.linear_iterations;
-    found.factorizations += total.factorizations;
-    total = found;
-    if (total.status != SolveStatus::converged) return total;
-    total.residuals.energy = std::abs(search.mismatch(total.state.r));
-    if (total.residuals.energy <= context_.settings.solver.structure_tolerance) return total;
-    search.advance(total.state.r);
-    start = grown(total.state, start.rest, search.energy());
+  solution.loads = flow.loads(solution.state.w, problem.motions(solution.state));
+  if (how.with_tangent && result.status == SolveStatus::converged) {
+    const auto slope = context_.timer.measure("branch slope");
+    GmresOptions gmres = options.gmres;
+    gmres.relative_tolerance = slope_tolerance(condition.energy.energy);
+    solution.tangent = cycle_tangent<2>(context_.comm, problem, model_, kinematics, u, gmres);
   }
-  total.status = SolveStatus::iteration_limit;
-  total.is_search_exhausted = true;
-  return total;
+  return solution;
 }
 
 CycleSolution CycleSolver::solve_by_turns(const std::string& stage, const CycleStart& start,
@@ -208,6 +206,11 @@ CycleSolution CycleSolver::solve_by_turns(const std::string& stage, const CycleS
   solution.residuals = result.residuals;
   solution.staggered_iterations = result.iterations;
   solution.flow_cycles = result.flow_cycles;
+  std::vector<MotionState> motions;
+  for (std::size_t n = 0; n < solution.state.y.size(); n += 4)
+    motions.push_back(section_kinematics(settings).motion(
+        std::span<const double>(solution.state.y).subspan(n, 4), solution.state.r));
+  solution.loads = flow.loads(solution.state.w, motions);
   return solution;
 }
 

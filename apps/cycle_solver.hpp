@@ -1,11 +1,13 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "apps/context.hpp"
 #include "apps/history.hpp"
 #include "flow/flow_level.hpp"
+#include "structure/cycle_tangent.hpp"
 #include "structure/linear_flutter.hpp"
 #include "structure/staggered.hpp"
 
@@ -30,8 +32,18 @@ struct CycleSolution {
   int factorizations = 0;
   int staggered_iterations = 0;
   int flow_cycles = 0;
-  bool is_search_exhausted = false;  // the energy of the given speed was not found
+  std::vector<Loads<double>> loads;  // of every instance
+  std::optional<CycleTangent> tangent;
 };
+
+struct CoupledOptions {
+  int max_iterations = 30;
+  double looseness = 1.0;    // times the tolerances of the case
+  bool with_tangent = true;  // of a cycle that converged
+};
+
+// The period of a state.
+TimeSpectral time_of(const AeroelasticState& state);
 
 // Finds flutter and limit cycles on one mesh by the case's method, with lines of progress and of
 // history. All methods are collective.
@@ -51,15 +63,20 @@ class CycleSolver {
   // A solved cycle blown up or down, about the state of rest, to another energy.
   CycleStart grown(AeroelasticState state, const AeroelasticState& rest, double energy);
 
-  // The cycle of given energy or speed. `stage` names it in progress and history.
+  // The cycle of given energy or speed near the start, by the case's method. `stage` names it in
+  // progress and history.
   CycleSolution solve(const std::string& stage, const CycleStart& start, const CycleAmplitude& amplitude);
+  // The cycle of a branch that a row picks, by Newton on all rows at once. The start's factors are used
+  // and left renewed.
+  CycleSolution solve_coupled(const std::string& stage, const CycleStart& start,
+                              const CycleCondition& condition, const CoupledOptions& options);
+  // Makes room for one harmonic more among factors.
+  void add_harmonic(HarmonicFactors& factors) const;
 
  private:
-  CycleSolution solve_coupled(const std::string& stage, const CycleStart& start, double energy);
-  CycleSolution solve_coupled_at_speed(const std::string& stage, CycleStart start, const GivenSpeed& given);
   CycleSolution solve_by_turns(const std::string& stage, const CycleStart& start,
                                const CycleAmplitude& amplitude);
-  AeroelasticTolerances tolerances() const;
+  AeroelasticTolerances tolerances(double looseness = 1.0) const;
 
   Context& context_;
   FlowLevel<2>& level_;

@@ -40,6 +40,9 @@ TypicalSection typical_section(const StructureSettings& settings) {
   section.frequency_ratio = settings.frequency_ratio;
   section.mass_ratio = settings.mass_ratio;
   section.damping = settings.damping;
+  section.plunge_spring = {settings.plunge_cubic, settings.plunge_quintic, settings.plunge_freeplay};
+  section.pitch_spring = {settings.pitch_cubic, settings.pitch_quintic, radians(settings.pitch_freeplay_deg)};
+  section.freeplay_smoothing = settings.freeplay_smoothing;
   return section;
 }
 
@@ -99,6 +102,13 @@ PseudoTransientOptions steady_options(const SolverSettings& settings) {
   options.tolerance = settings.steady_target();
   options.max_iterations = settings.max_steady_iterations;
   options.gmres = gmres_options(settings);
+  return options;
+}
+
+ForcedFlowOptions forced_flow_options(const SolverSettings& settings) {
+  ForcedFlowOptions options{.tolerance = settings.flow_tolerance, .newton = {}};
+  options.newton.max_iterations = settings.max_newton_iterations;
+  options.newton.gmres = gmres_options(settings);
   return options;
 }
 

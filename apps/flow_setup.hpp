@@ -1,6 +1,7 @@
 #pragma once
 
 #include "apps/context.hpp"
+#include "flow/forced_flow.hpp"
 #include "flow/steady_sequence.hpp"
 #include "structure/section_kinematics.hpp"
 #include "structure/typical_section.hpp"
@@ -27,6 +28,7 @@ FlowLevels<Dim> make_levels(Context& context, const MultiblockMesh<Dim>& mesh);
 
 PseudoTransientOptions steady_options(const SolverSettings& settings);
 GmresOptions gmres_options(const SolverSettings& settings);
+ForcedFlowOptions forced_flow_options(const SolverSettings& settings);
 
 // Force and moment coefficients in wind axes, cm nose up about the moment reference.
 struct Coefficients {

@@ -1,4 +1,5 @@
 #include "apps/case_mesh.hpp"
+#include "apps/cycle_record.hpp"
 #include "apps/cycle_stage.hpp"
 #include "apps/flow_setup.hpp"
 #include "apps/solution_output.hpp"
@@ -23,6 +24,7 @@ SolveStatus run_flutter(Context& context) {
   write_solution_files(context, level, solution.state);
   const auto entry = cycle_entry(settings, model, solution);
   context.result.findings["flutter"] = entry;
+  write_cycle(context, solution);
   print_cycle(context, entry);
   context.result.message = solution.status == SolveStatus::converged
                                ? fmt::format("V_F = {:.6f}, omega = {:.6f}",

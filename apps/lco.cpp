@@ -1,97 +1,172 @@
 #include <fmt/format.h>
 
 #include "apps/case_mesh.hpp"
+#include "apps/cycle_branch.hpp"
+#include "apps/cycle_record.hpp"
 #include "apps/cycle_stage.hpp"
 #include "apps/flow_setup.hpp"
-#include "apps/on_root.hpp"
 #include "apps/solution_output.hpp"
 #include "apps/verbs.hpp"
-#include "core/io/csv.hpp"
+#include "structure/energy.hpp"
 
 namespace wingbeat {
 namespace {
 
-// The cycles to compute: those of given energy in the order given, then that of given speed.
-std::vector<CycleAmplitude> amplitudes(const CaseSettings& settings) {
-  std::vector<CycleAmplitude> list;
-  for (double energy : settings.lco.energies) list.push_back(GivenEnergy{energy});
-  if (const auto& v = settings.lco.reduced_velocity) {
-    const auto& energies = settings.lco.energies;
-    list.push_back(GivenSpeed{*v, energies.empty() ? settings.flutter.energy : energies.back()});
+// The search for a cycle: what both methods need, and what they do with a cycle found.
+struct LcoRun {
+  Context& context;
+  const FlowLevel<2>& level;
+  const StructureModel& model;
+  const History& history;
+  CycleRecord& record;
+
+  void save(const CycleSolution& solution, bool is_asked) const {
+    history.write();
+    const auto part = context.timer.measure("output");
+    write_solution_files(context, level, solution.state);
+    const auto entry = cycle_entry(context.settings, model, solution);
+    record.add(entry, solution, is_asked);
+    context.result.findings["lco"] = record.asked();
+    if (is_asked) print_cycle(context, entry);
   }
-  return list;
+
+  SolveStatus end(SolveStatus status, const std::string& why) const {
+    context.result.message = why;
+    return status;
+  }
+  SolveStatus end_well() const {
+    return end(SolveStatus::converged, fmt::format("{} limit cycles", record.asked().size()));
+  }
+};
+
+std::string where_it_ended(const CycleBranch& branch) {
+  return fmt::format("the branch ends at E_0 = {:.3e}, V = {:.6f}", branch.energy(),
+                     branch.reduced_velocity());
 }
 
-double first_energy(const CycleAmplitude& amplitude) {
-  if (const auto* given = std::get_if<GivenEnergy>(&amplitude)) return given->energy;
-  return std::get<GivenSpeed>(amplitude).initial_energy;
+// Why a step along the branch gave no cycle, and what to do.
+SolveStatus end_at(const LcoRun& run, const CycleBranch& branch, BranchStep step, const std::string& target) {
+  if (step == BranchStep::interrupted)
+    return run.end(SolveStatus::interrupted,
+                   fmt::format("stopped by a signal or --walltime before {}; continue with --restart "
+                               "solution.cgns",
+                               target));
+  return run.end(
+      SolveStatus::stalled,
+      fmt::format("{} was not reached: {}: {}; the cycles so far are in lco.csv. A finer mesh, other "
+                  "time.harmonics or lco.harmonic_share may carry it on; solver.method = staggered "
+                  "is another way",
+                  target, where_it_ended(branch), branch.why()));
 }
 
-// What to do about a cycle that was not found. At the speed given there may be none: the energy of the
-// search then vanishes.
-std::string advice(const CaseSettings& settings, const CycleAmplitude& amplitude,
-                   const CycleSolution& solution, double energy) {
-  const auto* given = std::get_if<GivenSpeed>(&amplitude);
-  const bool has_vanished = given && energy < 1e-3 * given->initial_energy;
-  if (solution.status == SolveStatus::interrupted || !(solution.is_search_exhausted || has_vanished))
-    return cycle_advice(settings, solution);
-  return fmt::format(
-      "no cycle was found at lco.reduced_velocity = {:g}; the last one tried has V = {:.6f} at E_0 = {:.1e}; "
-      "see the V of some lco.energies, since the branch may not reach that speed, and start from the nearest",
-      given->reduced_velocity, section_kinematics(settings).reduced_velocity(solution.state.r), energy);
+// Energies in the order given, then the speed, along one branch.
+SolveStatus follow_branch(const LcoRun& run, CycleSolver& solver, const CycleStart& start,
+                          const std::vector<double>& energies, double first_energy) {
+  const LcoSettings& lco = run.context.settings.lco;
+  double largest = lco.reduced_velocity ? lco.max_energy : first_energy;
+  for (double energy : energies) largest = std::max(largest, energy);
+  CycleBranch branch(run.context, run.model, solver, start, largest);
+  const SolveStatus begun = branch.begin(first_energy);
+  const bool first_is_asked = !energies.empty() && energies.front() == first_energy;
+  if (begun != SolveStatus::converged) {
+    run.save(branch.solution(), first_is_asked);
+    return run.end(begun, cycle_advice(run.context.settings, branch.solution()));
+  }
+  run.save(branch.solution(), first_is_asked);
+
+  for (double energy : energies) {
+    if (run.record.has_energy(energy)) continue;
+    for (BranchStep step = BranchStep::advanced; step != BranchStep::reached;) {
+      step = branch.advance_to_energy(energy);
+      if (step == BranchStep::failed || step == BranchStep::interrupted)
+        return end_at(run, branch, step, fmt::format("E_0 = {:g}", energy));
+      run.save(branch.solution(), step == BranchStep::reached);
+    }
+  }
+  if (!lco.reduced_velocity) return run.end_well();
+  const std::string target = fmt::format("V = {:g}", *lco.reduced_velocity);
+  for (bool is_found = false; branch.energy() < lco.max_energy;) {
+    const BranchStep step = branch.advance_to_speed(*lco.reduced_velocity);
+    if (step == BranchStep::failed || step == BranchStep::interrupted) {
+      if (is_found && step == BranchStep::failed) break;
+      return end_at(run, branch, step, target);
+    }
+    run.save(branch.solution(), step == BranchStep::reached);
+    is_found = is_found || step == BranchStep::reached;
+    if (is_found && !lco.all_crossings) return run.end_well();
+    if (is_found && branch.energy() >= lco.max_energy) return run.end_well();
+  }
+  return run.end(
+      SolveStatus::stalled,
+      fmt::format("no cycle was found at lco.reduced_velocity = {:g} up to lco.max_energy = {:g}: {}; "
+                  "lco.csv shows which speeds the branch has",
+                  *lco.reduced_velocity, lco.max_energy, where_it_ended(branch)));
 }
 
-void write_table(Context& context, const nlohmann::ordered_json& cycles) {
-  CsvTable table({"energy", "reduced_velocity", "frequency_ratio", "pitch_amplitude_deg", "plunge_amplitude",
-                  "flow_residual", "structure_residual"});
-  for (const auto& entry : cycles)
-    table.add(std::vector<double>{
-        entry["energy"].get<double>(), entry["reduced_velocity"].get<double>(),
-        entry["frequency_ratio"].get<double>(), entry["pitch_amplitude_deg"].get<double>(),
-        entry["plunge_amplitude"].get<double>(), entry["residuals"]["flow"].get<double>(),
-        entry["residuals"]["structure"].get<double>()});
-  on_root(context.comm, [&] { table.write(context.output / "lco.csv"); });
+// By turns each cycle starts from the last one, scaled.
+SolveStatus solve_list(const LcoRun& run, CycleSolver& solver, CycleStart start,
+                       const std::vector<double>& energies, double first_energy) {
+  const CaseSettings& settings = run.context.settings;
+  std::vector<CycleAmplitude> list;
+  for (double energy : energies) list.push_back(GivenEnergy{energy});
+  if (const auto& v = settings.lco.reduced_velocity)
+    list.push_back(GivenSpeed{*v, energies.empty() ? first_energy : energies.back()});
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (const auto* given = std::get_if<GivenEnergy>(&list[i])) {
+      if (run.record.has_energy(given->energy)) continue;
+      start = solver.grown(start.state, start.rest, given->energy);
+    }
+    const CycleSolution solution = solver.solve(fmt::format("cycle {}", i + 1), start, list[i]);
+    run.save(solution, true);
+    if (solution.status != SolveStatus::converged) {
+      std::string why = cycle_advice(settings, solution);
+      const double energy = fluctuating_energy(run.model, solution.state.y);
+      const auto* given = std::get_if<GivenSpeed>(&list[i]);
+      // At a speed that has no cycle the energy of the search vanishes.
+      if (given && solution.status != SolveStatus::interrupted && energy < 1e-3 * given->initial_energy)
+        why = fmt::format(
+            "no cycle was found at lco.reduced_velocity = {:g}; see the V of some lco.energies, "
+            "since the branch may not reach that speed, and start from the nearest",
+            given->reduced_velocity);
+      return run.end(solution.status, fmt::format("cycle {} of {}: {}", i + 1, list.size(), why));
+    }
+    start.state = solution.state;
+  }
+  return run.end_well();
 }
 
 }  // namespace
 
 std::vector<std::string> lco_faults(const CaseSettings& settings) {
-  if (!settings.lco.energies.empty() || settings.lco.reduced_velocity) return {};
-  return {"lco.energies: no cycle is asked for; give this key (a list of E_0) or lco.reduced_velocity"};
+  if (!settings.lco.all_energies().empty() || settings.lco.reduced_velocity) return {};
+  return {
+      "lco.energies: no cycle is asked for; give this key (a list of E_0), lco.energy_range or "
+      "lco.reduced_velocity"};
 }
 
 SolveStatus run_lco(Context& context) {
   const CaseSettings& settings = context.settings;
   const StructureModel model = structure_model(typical_section(settings.structure));
-  const std::vector<CycleAmplitude> list = amplitudes(settings);
+  CycleRecord record(context);
+  record.resume();
   FlowLevels<2> levels = make_levels<2>(context, make_plane_mesh(settings.mesh));
   FlowLevel<2>& level = *levels.back();
   History history(context);
   CycleSolver solver(context, level, model, history);
-  const CycleApproach approach =
-      approach_cycle(context, levels, model, solver, first_energy(list.front()), history);
-  if (!approach.start) return approach.status;
 
-  CycleStart start = *approach.start;
-  auto& cycles = context.result.findings["lco"] = nlohmann::ordered_json::array();
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    const CycleSolution solution = solver.solve(fmt::format("cycle {}", i + 1), start, list[i]);
-    history.write();
-    const auto part = context.timer.measure("output");
-    write_solution_files(context, level, solution.state);
-    cycles.push_back(cycle_entry(settings, model, solution));
-    print_cycle(context, cycles.back());
-    write_table(context, cycles);
-    if (solution.status != SolveStatus::converged) {
-      context.result.message =
-          fmt::format("cycle {} of {}: {}", i + 1, list.size(),
-                      advice(settings, list[i], solution, cycles.back()["energy"].get<double>()));
-      return solution.status;
-    }
-    if (i + 1 < list.size()) start = solver.grown(solution.state, start.rest, first_energy(list[i + 1]));
-  }
-  context.result.message = fmt::format("{} limit cycles", list.size());
-  return SolveStatus::converged;
+  // A branch begins small, where linear flutter is a good start.
+  const std::vector<double> energies = settings.lco.all_energies();
+  double first_energy = settings.flutter.energy;
+  if (!energies.empty())
+    first_energy =
+        settings.solver.is_staggered() ? energies.front() : std::min(first_energy, energies.front());
+  const CycleApproach approach = approach_cycle(context, levels, model, solver, first_energy, history);
+  if (!approach.start) return approach.status;
+  if (context.restart) first_energy = fluctuating_energy(model, approach.start->state.y);
+
+  const LcoRun run{context, level, model, history, record};
+  if (settings.solver.is_staggered()) return solve_list(run, solver, *approach.start, energies, first_energy);
+  return follow_branch(run, solver, *approach.start, energies, first_energy);
 }
 
 }  // namespace wingbeat

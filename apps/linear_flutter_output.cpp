@@ -17,10 +17,12 @@ LinearFlutterOptions linear_flutter_options(const Context& context) {
 }
 
 nlohmann::ordered_json flutter_point(const CaseSettings& settings, double reduced_velocity, double omega) {
-  return {{"reduced_velocity", reduced_velocity},
-          {"speed_index", speed_index(typical_section(settings.structure), reduced_velocity)},
-          {"frequency_ratio", omega},
-          {"reduced_frequency", omega / (2.0 * reduced_velocity)}};
+  nlohmann::ordered_json point{{"reduced_velocity", reduced_velocity}};
+  if (settings.structure.mass_ratio > 0.0)
+    point["speed_index"] = speed_index(typical_section(settings.structure), reduced_velocity);
+  point["frequency_ratio"] = omega;
+  point["reduced_frequency"] = omega / (2.0 * reduced_velocity);
+  return point;
 }
 
 void report_linear_flutter(Context& context, const LinearFlutter& flutter) {

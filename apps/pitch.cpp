@@ -23,13 +23,6 @@ double kappa(const CaseSettings& settings) {
   return 2.0 * *settings.pitch.reduced_frequency * section_kinematics(settings).flow_speed;
 }
 
-ForcedFlowOptions forced_options(const SolverSettings& settings) {
-  ForcedFlowOptions options{.tolerance = settings.flow_tolerance, .newton = {}};
-  options.newton.max_iterations = settings.max_newton_iterations;
-  options.newton.gmres = gmres_options(settings);
-  return options;
-}
-
 // The motion as the states of a typical section, at the speed V_ref where the two clocks agree with k.
 AeroelasticState moved_state(const CaseSettings& settings, const TimeSpectral& time, std::vector<double> w) {
   const ForcedMotion motion = forced_motion(settings.pitch);
@@ -51,7 +44,7 @@ AeroelasticState moved_state(const CaseSettings& settings, const TimeSpectral& t
 ForcedFlowResult solve_with_progress(Context& context, FlowEquations<2>& flow, ForcedFlowStart& start,
                                      const std::vector<MotionState>& motions, History& history) {
   const auto part = context.timer.measure("newton");
-  const ForcedFlowOptions options = forced_options(context.settings.solver);
+  const ForcedFlowOptions options = forced_flow_options(context.settings.solver);
   Progress progress(context.log, "forced motion", {"iter", "|R|", "step", "linear"});
   double first = 0.0;
   return solve_forced_flow<2>(flow, start.factors, motions, kappa(context.settings), start.w, options,
@@ -119,7 +112,7 @@ void compute_derivatives(Context& context, FlowLevel<2>& level) {
   const TimeSpectral time(std::max(2, settings.time.harmonics));
   ForcedMatrixOptions options;
   options.amplitude = settings.pitch.derivative_amplitude_deg * std::numbers::pi / 180.0;
-  options.flow = forced_options(settings.solver);
+  options.flow = forced_flow_options(settings.solver);
   options.observer = [&](const ForcedFlowIteration&) { return !context.stop.is_set(); };
   const Eigen::Matrix2cd forced = forced_aerodynamic_matrix<2>(level, time, kinematics, k, options);
   LinearizedSection<2> section(level, kinematics, {level.w, std::vector<double>(4, 0.0), 0.0, 1.0}, 1e-10);

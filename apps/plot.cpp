@@ -50,10 +50,12 @@ fs::path find_script() {
                                source_folder()));
 }
 
-// The first Python on PATH may be a private one that lacks the system's packages.
+// The first Python on PATH may be a private one that lacks the system's packages. One that reads solution
+// files too (h5py) comes before one that only draws.
 std::string find_python() {
-  for (const std::string python : {"python3", "/usr/bin/python3"})
-    if (run_process({python, "-c", "import matplotlib"}, true) == 0) return python;
+  for (const std::string needed : {"import matplotlib, h5py", "import matplotlib"})
+    for (const std::string python : {"python3", "/usr/bin/python3"})
+      if (run_process({python, "-c", needed}, true) == 0) return python;
   throw InputError("plot: no Python with matplotlib; install it with: apt-get install python3-matplotlib");
 }
 

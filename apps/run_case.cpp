@@ -43,8 +43,11 @@ ResolvedCase read_case(const Comm& comm, const CommandLine& command, const Verb&
   std::string text;
   on_root(comm, [&] { text = read_case_text(command.target); });
   text = comm.broadcast(text);
+  const auto used_sections = [&](const CaseSettings& settings) {
+    return verb.sections_of ? verb.sections_of(settings) : verb.sections;
+  };
   ResolvedCase resolved =
-      resolve_case(text, command.target, command.overrides, verb.sections, "wingbeat " + verb.name);
+      resolve_case(text, command.target, command.overrides, used_sections, "wingbeat " + verb.name);
   if (!verb.faults) return resolved;
   const std::vector<std::string> faults = verb.faults(resolved.settings);
   if (faults.size() == 1) throw InputError(fmt::format("{}: {}", command.target, faults[0]));
@@ -67,9 +70,11 @@ void prepare_output(const Comm& comm, const CommandLine& command, const Resolved
 // What a run would work on. Making the mesh finds its faults, too.
 void show_plan(const ResolvedCase& resolved, Log& log) {
   log.line(resolved.text);
+  const MeshSettings& mesh = resolved.settings.mesh;
+  if (!mesh.airfoil && !mesh.file) return;
   std::visit(
-      [&](const auto& mesh) { log.line("# {} cells in {} blocks", mesh.cell_count(), mesh.zones.size()); },
-      make_case_mesh(resolved.settings.mesh));
+      [&](const auto& made) { log.line("# {} cells in {} blocks", made.cell_count(), made.zones.size()); },
+      make_case_mesh(mesh));
 }
 
 // A result of an earlier run must not be taken for one of this run.
@@ -120,6 +125,7 @@ int execute(const Comm& comm, const CommandLine& command, Result& result, Timer&
                   .sources = resolved.sources,
                   .output = command.output,
                   .restart = command.restart,
+                  .find_flutter = command.find_flutter,
                   .planned_ranks = command.ranks.value_or(comm.size()),
                   .log = log,
                   .timer = timer,

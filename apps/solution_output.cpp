@@ -64,65 +64,95 @@ SolutionInstance<2> instance_of(const MultiblockMesh<2>& mesh, const double* w, 
   return instance;
 }
 
-void write_surface(const Context& context, const FlowLevel<2>& level, const AeroelasticState& state) {
-  const TimeSpectral time(static_cast<int>(state.y.size() / 4 - 1) / 2);
-  CsvTable table({"instance", "phase", "block", "x", "y", "x_body", "y_body", "cp", "mach"});
-  const std::size_t count = level.domain.state_count();
-  for (int i = 0; i < time.instances(); ++i) {
+// All cells of the levels or instances w of the mesh, on rank 0. Collective.
+Solution<2> gathered_solution(const Context& context, const FlowLevel<2>& level, const std::vector<double>& w,
+                              std::span<const double> y, const std::vector<double>& times) {
+  const int instances = static_cast<int>(y.size() / 4);
+  const std::vector<double> whole = gather_to_root(context.comm, level.local.global_cell, w, instances, n);
+  Solution<2> solution;
+  if (!context.comm.is_root()) return solution;
+  for (int i = 0; i < instances; ++i) {
     const auto at = static_cast<std::size_t>(i);
-    const auto position = position_of(context.settings, std::span<const double>(state.y).subspan(4 * at, 4));
-    const auto points = surface_points<2>(
-        level, level.steady.model(), std::span<const double>(state.w).subspan(at * count, count), position);
-    for (const SurfacePoint& p : points)
-      table.add({static_cast<long>(i), time.phase(i), level.mesh.zones[static_cast<std::size_t>(p.zone)].name,
-                 p.place[0], p.place[1], p.body[0], p.body[1], p.cp, p.mach});
+    const auto position = position_of(context.settings, y.subspan(4 * at, 4));
+    const bool moves = position.pitch != 0.0 || position.plunge != 0.0;
+    auto instance =
+        instance_of(level.mesh, whole.data() + at * level.mesh.cell_count() * n, context.settings.flow.gamma,
+                    level.domain.axis(), position, moves || instances > 1);
+    instance.time = times[at];
+    solution.instances.push_back(std::move(instance));
   }
-  on_root(context.comm, [&] { table.write(context.output / "surface.csv"); });
+  solution.data["y"] = {y.begin(), y.end()};
+  solution.data["mach"] = {context.settings.flow.mach};
+  return solution;
 }
 
 }  // namespace
 
+SurfaceTable::SurfaceTable()
+    : table_({"instance", "phase", "block", "x", "y", "x_body", "y_body", "cp", "mach"}) {}
+
+void SurfaceTable::add(const Context& context, const FlowLevel<2>& level, double phase,
+                       std::span<const double> w, std::span<const double> y) {
+  for (const SurfacePoint& p :
+       surface_points<2>(level, level.steady.model(), w, position_of(context.settings, y)))
+    table_.add({instances_, phase, level.mesh.zones[static_cast<std::size_t>(p.zone)].name, p.place[0],
+                p.place[1], p.body[0], p.body[1], p.cp, p.mach});
+  ++instances_;
+}
+
+void SurfaceTable::write(const Context& context) const {
+  on_root(context.comm, [&] { table_.write(context.output / "surface.csv"); });
+}
+
 void write_solution_files(const Context& context, const FlowLevel<2>& level, const AeroelasticState& state) {
-  const int instances = static_cast<int>(state.y.size() / 4);
-  const TimeSpectral time((instances - 1) / 2);
-  const std::vector<double> whole =
-      gather_to_root(context.comm, level.local.global_cell, state.w, instances, n);
-  const SectionKinematics kinematics = section_kinematics(context.settings);
+  const std::size_t instances = state.y.size() / 4, count = level.domain.state_count();
+  const TimeSpectral time(static_cast<int>(instances - 1) / 2);
+  std::vector<double> times(instances, 0.0);
+  if (state.omega > 0.0)
+    for (std::size_t i = 0; i < instances; ++i) times[i] = time.phase(static_cast<int>(i)) / state.omega;
+  Solution<2> solution = gathered_solution(context, level, state.w, state.y, times);
+  solution.data["omega"] = {state.omega};
+  solution.data["freestream_parameter"] = {state.r};
+  solution.data["reduced_velocity"] = {section_kinematics(context.settings).reduced_velocity(state.r)};
   on_root(context.comm, [&] {
-    Solution<2> solution;
-    for (int i = 0; i < instances; ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      const auto position =
-          position_of(context.settings, std::span<const double>(state.y).subspan(4 * at, 4));
-      const bool moves = position.pitch != 0.0 || position.plunge != 0.0;
-      auto instance =
-          instance_of(level.mesh, whole.data() + at * level.mesh.cell_count() * n,
-                      context.settings.flow.gamma, level.domain.axis(), position, moves || instances > 1);
-      if (state.omega > 0.0) instance.time = time.phase(i) / state.omega;
-      solution.instances.push_back(std::move(instance));
-    }
-    solution.data["y"] = state.y;
-    solution.data["omega"] = {state.omega};
-    solution.data["freestream_parameter"] = {state.r};
-    solution.data["reduced_velocity"] = {kinematics.reduced_velocity(state.r)};
-    solution.data["mach"] = {context.settings.flow.mach};
     write_solution<2>(context.output / "solution.cgns", level.mesh, solution);
     near_wall_nodes(level.mesh).write(context.output / "mesh.csv");
   });
-  write_surface(context, level, state);
+  SurfaceTable surface;
+  for (std::size_t i = 0; i < instances; ++i)
+    surface.add(context, level, time.phase(static_cast<int>(i)),
+                std::span<const double>(state.w).subspan(i * count, count),
+                std::span<const double>(state.y).subspan(4 * i, 4));
+  surface.write(context);
 }
 
-AeroelasticState read_restart(const Context& context, const FlowLevel<2>& level,
-                              const std::vector<int>& allowed_instances) {
+void write_time_levels(const Context& context, const FlowLevel<2>& level, const TimeLevels& levels) {
+  std::vector<double> w, y, times;
+  for (std::size_t k = 0; k < std::min(levels.w.size(), levels.y.size()); ++k) {
+    w.insert(w.end(), levels.w[k].begin(), levels.w[k].end());
+    y.insert(y.end(), levels.y[k].begin(), levels.y[k].end());
+    times.push_back(static_cast<double>(k) * levels.dtau);
+  }
+  Solution<2> solution = gathered_solution(context, level, w, y, times);
+  const double v = levels.reduced_velocity;
+  solution.data["omega"] = {0.0};
+  solution.data["freestream_parameter"] = {
+      std::pow(v / section_kinematics(context.settings).reference_velocity, 2)};
+  solution.data["reduced_velocity"] = {v};
+  solution.data["time_step"] = {levels.dtau};
+  solution.data["rest"] = levels.rest_y;
+  on_root(context.comm, [&] {
+    write_solution<2>(context.output / "solution.cgns", level.mesh, solution);
+    near_wall_nodes(level.mesh).write(context.output / "mesh.csv");
+  });
+}
+
+StoredSolution read_stored_solution(const Context& context, const FlowLevel<2>& level) {
   std::vector<double> whole, data;
   double count = 0.0;
   on_root(context.comm, [&] {
     const Solution<2> solution = read_solution<2>(*context.restart, level.mesh);
     const int held = static_cast<int>(solution.instances.size());
-    if (std::ranges::find(allowed_instances, held) == allowed_instances.end())
-      throw InputError(
-          fmt::format("{}: holds {} instances, this run can start from {}; set time.harmonics to match",
-                      context.restart->string(), held, fmt::join(allowed_instances, " or ")));
     count = held;
     for (const auto& instance : solution.instances)
       for (const auto& zone : instance.zones)
@@ -144,19 +174,38 @@ AeroelasticState read_restart(const Context& context, const FlowLevel<2>& level,
     data = value("y");
     data.push_back(value("omega")[0]);
     data.push_back(value("freestream_parameter")[0]);
-    if (data.size() != static_cast<std::size_t>(4 * held + 2))
+    const bool is_march = solution.data.contains("time_step");
+    data.push_back(is_march ? value("time_step")[0] : 0.0);
+    const std::vector<double> rest = is_march ? value("rest") : std::vector<double>(4, 0.0);
+    data.insert(data.begin(), rest.begin(), rest.end());
+    if (data.size() != static_cast<std::size_t>(4 * held + 7))
       throw InputError(fmt::format("{}: its structural state does not fit", context.restart->string()));
   });
   context.comm.broadcast(count);
   const int instances = static_cast<int>(count);
-  data.resize(static_cast<std::size_t>(4 * instances + 2));
+  data.resize(static_cast<std::size_t>(4 * instances + 7));
   context.comm.broadcast(data);
-  AeroelasticState state;
-  state.w = scatter_from_root(context.comm, level.local.global_cell, whole, instances, n);
-  state.r = data.back();
-  state.omega = data[data.size() - 2];
-  state.y.assign(data.begin(), data.end() - 2);
-  return state;
+  StoredSolution stored;
+  stored.state.w = scatter_from_root(context.comm, level.local.global_cell, whole, instances, n);
+  if (data.back() > 0.0) stored.time_step = data.back();
+  stored.rest_y.assign(data.begin(), data.begin() + 4);
+  stored.state.r = data[data.size() - 2];
+  stored.state.omega = data[data.size() - 3];
+  stored.state.y.assign(data.begin() + 4, data.end() - 3);
+  return stored;
+}
+
+AeroelasticState read_restart(const Context& context, const FlowLevel<2>& level,
+                              const std::vector<int>& allowed_instances) {
+  StoredSolution stored = read_stored_solution(context, level);
+  if (stored.time_step)
+    throw InputError(fmt::format("{}: holds time levels of a march; only wingbeat march goes on from these",
+                                 context.restart->string()));
+  if (std::ranges::find(allowed_instances, stored.instances()) == allowed_instances.end())
+    throw InputError(
+        fmt::format("{}: holds {} instances, this run can start from {}; set time.harmonics to match",
+                    context.restart->string(), stored.instances(), fmt::join(allowed_instances, " or ")));
+  return std::move(stored.state);
 }
 
 }  // namespace wingbeat

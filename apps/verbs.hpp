@@ -16,6 +16,7 @@ SolveStatus run_steady(Context& context);
 SolveStatus run_pitch(Context& context);
 SolveStatus run_flutter(Context& context);
 SolveStatus run_lco(Context& context);
+SolveStatus run_march(Context& context);
 SolveStatus run_pk(Context& context);
 SolveStatus run_mesh(Context& context);
 SolveStatus run_partition(Context& context);
@@ -23,6 +24,10 @@ SolveStatus run_partition(Context& context);
 // What is wrong with a case for that verb beyond single sections: "section.key: ...", what to do.
 std::vector<std::string> pitch_faults(const CaseSettings& settings);
 std::vector<std::string> lco_faults(const CaseSettings& settings);
+std::vector<std::string> pk_faults(const CaseSettings& settings);
+
+// The sections that pk needs: those of mesh and flow unless Q(k) is read from a file.
+std::vector<std::string> pk_sections(const CaseSettings& settings);
 
 // A verb of the command line that works on a case.
 struct Verb {
@@ -32,6 +37,7 @@ struct Verb {
   SolveStatus (*run)(Context&);
   bool can_restart = false;
   std::vector<std::string> (*faults)(const CaseSettings&) = nullptr;
+  std::vector<std::string> (*sections_of)(const CaseSettings&) = nullptr;  // where the case decides
 };
 
 std::span<const Verb> verbs();

@@ -57,13 +57,13 @@ std::span<const double> FlowEquations<Dim>::ghosts_of(std::size_t instance) cons
 
 template <int Dim>
 void FlowEquations<Dim>::residual(std::span<const double> w, std::span<const MotionState> motions,
-                                  double kappa, std::span<double> r) {
+                                  TimeTerm term, std::span<double> r) {
   fetch_ghosts(w);
   const std::size_t count = domain_.state_count();
   for (std::size_t i = 0; i < instance_count(); ++i)
     balance_.evaluate(w.subspan(i * count, count), ghosts_of(i), rigid_motion(motions[i]),
                       r.subspan(i * count, count));
-  add_time_derivative(kappa, w, r);
+  add_time_term(term, w, r);
 }
 
 template <int Dim>
@@ -107,6 +107,17 @@ void FlowEquations<Dim>::add_time_derivative(double scale, std::span<const doubl
 }
 
 template <int Dim>
+void FlowEquations<Dim>::add_time_term(TimeTerm term, std::span<const double> w, std::span<double> r) const {
+  add_time_derivative(term.kappa, w, r);
+  if (term.shift == 0.0) return;
+  const auto volumes = domain_.volumes();
+  for (std::size_t i = 0, at = 0; i < instance_count(); ++i)
+    for (std::size_t c = 0; c < volumes.size(); ++c, at += n)
+      store_cell<n>(load_cell<n>(r.data() + at) + term.shift * volumes[c] * load_cell<n>(w.data() + at),
+                    r.data() + at);
+}
+
+template <int Dim>
 std::vector<Loads<double>> FlowEquations<Dim>::loads(std::span<const double> w,
                                                      std::span<const MotionState> motions) {
   fetch_ghosts(w);
@@ -119,9 +130,9 @@ std::vector<Loads<double>> FlowEquations<Dim>::loads(std::span<const double> w,
 
 template <int Dim>
 void FlowEquations<Dim>::linearize_state(std::span<const double> w, std::span<const MotionState> motions,
-                                         double kappa) {
+                                         TimeTerm term) {
   fetch_ghosts(w);
-  kappa_ = kappa;
+  term_ = term;
   const std::size_t count = domain_.state_count();
   if (!assembler_) assembler_.emplace(domain_, model_);
   jacobians_.resize(instance_count(), BlockSparse<n>(domain_.pattern()));
@@ -131,8 +142,8 @@ void FlowEquations<Dim>::linearize_state(std::span<const double> w, std::span<co
 
 template <int Dim>
 void FlowEquations<Dim>::linearize(std::span<const double> w, std::span<const MotionState> motions,
-                                   double kappa) {
-  linearize_state(w, motions, kappa);
+                                   TimeTerm term) {
+  linearize_state(w, motions, term);
   const std::size_t count = domain_.state_count();
   using D = Dual<double, 3>;
   if (!motion_balance_) motion_balance_.emplace(domain_, lifted(model_));
@@ -163,7 +174,7 @@ void FlowEquations<Dim>::apply(std::span<const double> x, std::span<double> y) c
   const std::size_t count = domain_.state_count();
   for (std::size_t i = 0; i < instance_count(); ++i)
     jacobians_[i].multiply_add(x.subspan(i * count, count), ghosts_of(i), y.subspan(i * count, count));
-  add_time_derivative(kappa_, x, y);
+  add_time_term(term_, x, y);
 }
 
 template <int Dim>
@@ -176,7 +187,7 @@ void FlowEquations<Dim>::apply_transpose(std::span<const double> x, std::span<do
     jacobians_[i].transpose_multiply_add(x.subspan(i * count, count), y.subspan(i * count, count),
                                          std::span<double>(ghosts_).subspan(i * ghost_count, ghost_count));
   domain_.exchange().template scatter_add<double>(ghosts_, y, time_.instances(), n);
-  add_time_derivative(-kappa_, x, y);  // D is antisymmetric, Omega the same in all instances
+  add_time_term({-term_.kappa, term_.shift}, x, y);  // D is antisymmetric, Omega the same in all instances
 }
 
 template class FlowEquations<2>;

@@ -7,12 +7,14 @@
 #include "flow/flow_jacobian.hpp"
 #include "flow/flux_balance.hpp"
 #include "flow/loads.hpp"
+#include "flow/time_term.hpp"
 
 namespace wingbeat {
 
 // The flow equations R of all instances of a rank's cells (eq:time-spectral):
-//   R_n = kappa sum_m D_nm Omega w_m + balance(w_n, motion_n).
-// State vectors hold [instance][owned cell][variable]. Steady flow is N_H = 0.
+//   R_n = kappa sum_m D_nm Omega w_m + balance(w_n, motion_n),
+// and of a step in time (eq:dual-time), whose time term is shift Omega w_n instead. State vectors hold
+// [instance][owned cell][variable]. Steady flow is N_H = 0 without a shift.
 template <int Dim>
 class FlowEquations {
  public:
@@ -32,8 +34,8 @@ class FlowEquations {
   // scale of reported flow residuals. Collective.
   double uniform_residual();
 
-  // The following are collective. One motion an instance; kappa is the frequency on the flow's clock.
-  void residual(std::span<const double> w, std::span<const MotionState> motions, double kappa,
+  // The following are collective. One motion an instance.
+  void residual(std::span<const double> w, std::span<const MotionState> motions, TimeTerm term,
                 std::span<double> r);
   // r = R less its time derivative, with a dissipation that moves by the share `renewed` to that of w
   // (FluxBalance::evaluate_stage).
@@ -44,9 +46,9 @@ class FlowEquations {
   std::vector<Loads<double>> loads(std::span<const double> w, std::span<const MotionState> motions);
 
   // Makes jacobians() those of the given state.
-  void linearize_state(std::span<const double> w, std::span<const MotionState> motions, double kappa);
+  void linearize_state(std::span<const double> w, std::span<const MotionState> motions, TimeTerm term);
   // The same, and motion_gradients(), load_gradients() and linearized_loads().
-  void linearize(std::span<const double> w, std::span<const MotionState> motions, double kappa);
+  void linearize(std::span<const double> w, std::span<const MotionState> motions, TimeTerm term);
 
   const std::vector<BlockSparse<n>>& jacobians() const { return jacobians_; }
   // Columns d R_n / d (pitch, pitch_rate, plunge_rate) of instance n.
@@ -64,6 +66,7 @@ class FlowEquations {
   void apply_transpose(std::span<const double> x, std::span<double> y) const;
 
  private:
+  void add_time_term(TimeTerm term, std::span<const double> w, std::span<double> r) const;
   void fetch_ghosts(std::span<const double> w) const;
   std::span<const double> ghosts_of(std::size_t instance) const;
 
@@ -75,7 +78,7 @@ class FlowEquations {
   std::optional<FluxBalance<Dim, Dual<double, 3>>> motion_balance_;
   std::optional<FlowJacobian<Dim>> assembler_;
   WallLoads<Dim> walls_;
-  double kappa_ = 0.0;
+  TimeTerm term_;  // of the last linearization
   std::vector<BlockSparse<n>> jacobians_;
   std::vector<std::array<std::vector<double>, 3>> motion_gradients_;
   std::vector<LoadGradients> load_gradients_;

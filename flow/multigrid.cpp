@@ -71,41 +71,42 @@ double Multigrid<Dim>::work() const {
 
 template <int Dim>
 double Multigrid<Dim>::visit(std::size_t level, std::span<double> w, std::span<const MotionState> motions,
-                             double kappa, std::span<const double> source, const RungeKuttaOptions& options) {
+                             TimeTerm term, std::span<const double> source,
+                             const RungeKuttaOptions& options) {
   FlowEquations<Dim>& flow = level == 0 ? flow_ : coarse_[level - 1]->flow;
   RungeKutta<Dim>& smoother = level == 0 ? smoother_ : coarse_[level - 1]->smoother;
-  const double sum_of_squares = smoother.step(w, motions, kappa, source, options);
+  const double sum_of_squares = smoother.step(w, motions, term, source, options);
   if (level == coarse_.size()) {
     const int steps = level == 0 ? 1 : coarsest_steps<Dim>(coarse_.back()->grid.mesh);
-    for (int k = 1; k < steps; ++k) smoother.step(w, motions, kappa, source, options);
+    for (int k = 1; k < steps; ++k) smoother.step(w, motions, term, source, options);
     return sum_of_squares;
   }
 
   CoarseLevel<Dim>& coarse = *coarse_[level];
   std::vector<double>& residual = residual_[level];
-  flow.residual(w, motions, kappa, residual);
+  flow.residual(w, motions, term, residual);
   for (std::size_t i = 0; i < source.size(); ++i) residual[i] -= source[i];
   coarse.transfer.restrict_mean(w, coarse.w, flow.time().instances());
   coarse.transfer.restrict_sum(residual, coarse.restricted, flow.time().instances());
-  coarse.flow.residual(coarse.w, motions, kappa, coarse.source);
+  coarse.flow.residual(coarse.w, motions, term, coarse.source);
   for (std::size_t i = 0; i < coarse.source.size(); ++i) coarse.source[i] -= coarse.restricted[i];
   coarse.restricted = coarse.w;
 
   const bool is_coarsest = level + 1 == coarse_.size();
   for (int k = 0; k < (is_coarsest ? 1 : recursion_); ++k)
-    visit(level + 1, coarse.w, motions, kappa, coarse.source, options);
+    visit(level + 1, coarse.w, motions, term, coarse.source, options);
   for (std::size_t i = 0; i < coarse.w.size(); ++i) coarse.w[i] -= coarse.restricted[i];
   coarse.transfer.prolong_add(coarse.w, w, flow.time().instances());
   // What the interpolation roughened must not reach the next finer mesh, which smooths before it
   // comes back here only.
-  if (level > 0) smoother.step(w, motions, kappa, source, options);
+  if (level > 0) smoother.step(w, motions, term, source, options);
   return sum_of_squares;
 }
 
 template <int Dim>
-double Multigrid<Dim>::cycle(std::span<double> w, std::span<const MotionState> motions, double kappa,
-                             const RungeKuttaOptions& options) {
-  return visit(0, w, motions, kappa, {}, options);
+double Multigrid<Dim>::cycle(std::span<double> w, std::span<const MotionState> motions, TimeTerm term,
+                             const RungeKuttaOptions& options, std::span<const double> source) {
+  return visit(0, w, motions, term, source, options);
 }
 
 template struct CoarseLevel<2>;

@@ -58,12 +58,13 @@ class Multigrid {
   // Runge-Kutta steps of a cycle on all meshes, in steps on the finest: what a cycle costs.
   double work() const;
 
-  // One cycle. Returns this rank's sum of squares of R at the w given. Collective.
-  double cycle(std::span<double> w, std::span<const MotionState> motions, double kappa,
-               const RungeKuttaOptions& options);
+  // One cycle towards R(w) = source, which is empty (none) or has the size of w. Returns this rank's sum
+  // of squares of R - source at the w given. Collective.
+  double cycle(std::span<double> w, std::span<const MotionState> motions, TimeTerm term,
+               const RungeKuttaOptions& options, std::span<const double> source = {});
 
  private:
-  double visit(std::size_t level, std::span<double> w, std::span<const MotionState> motions, double kappa,
+  double visit(std::size_t level, std::span<double> w, std::span<const MotionState> motions, TimeTerm term,
                std::span<const double> source, const RungeKuttaOptions& options);
 
   FlowEquations<Dim>& flow_;

@@ -15,7 +15,7 @@ constexpr int cycles_to_trust = 10;
 
 template <int Dim>
 PseudoTimeResult pseudo_time(FlowEquations<Dim>& flow, Multigrid<Dim>& multigrid, std::span<double> w,
-                             std::span<const MotionState> motions, double kappa,
+                             std::span<const MotionState> motions, TimeTerm term,
                              const PseudoTimeOptions& options, const PseudoTimeObserver& observer) {
   const Comm& comm = flow.domain().comm();
   const double gamma = flow.model().freestream.gamma, scale = flow.uniform_residual();
@@ -24,7 +24,7 @@ PseudoTimeResult pseudo_time(FlowEquations<Dim>& flow, Multigrid<Dim>& multigrid
   PseudoTimeResult result;
   while (true) {
     std::copy(w.begin(), w.end(), before.begin());
-    const double norm = std::sqrt(comm.sum(multigrid.cycle(w, motions, kappa, step))) / scale;
+    const double norm = std::sqrt(comm.sum(multigrid.cycle(w, motions, term, step))) / scale;
     const bool is_good = norm < hopeless_residual && !comm.any(!is_physical<Dim>(w, gamma));
     result.cfl = step.cfl;
     if (std::isfinite(norm)) result.residual = norm;
@@ -49,7 +49,7 @@ PseudoTimeResult pseudo_time(FlowEquations<Dim>& flow, Multigrid<Dim>& multigrid
 
 template <int Dim>
 std::vector<double> full_multigrid_start(const FlowEquations<Dim>& flow, const DividedMesh<Dim>& mesh,
-                                         std::span<const MotionState> motions, double kappa,
+                                         std::span<const MotionState> motions, TimeTerm term,
                                          const PseudoTimeOptions& options,
                                          const PseudoTimeObserver& observer) {
   std::optional<CoarseGrid<Dim>> grid;
@@ -65,10 +65,10 @@ std::vector<double> full_multigrid_start(const FlowEquations<Dim>& flow, const D
   coarse_options.max_cycles = 100;
   if (auto& levels = coarse_options.multigrid.levels) --*levels;
   const DividedMesh<Dim> divided{grid->mesh, grid->partition};
-  std::vector<double> w = full_multigrid_start(coarse, divided, motions, kappa, coarse_options, observer);
+  std::vector<double> w = full_multigrid_start(coarse, divided, motions, term, coarse_options, observer);
   Multigrid<Dim> multigrid(coarse, divided, coarse_options.multigrid);
   const PseudoTimeResult result =
-      pseudo_time<Dim>(coarse, multigrid, w, motions, kappa, coarse_options, observer);
+      pseudo_time<Dim>(coarse, multigrid, w, motions, term, coarse_options, observer);
   if (result.status == SolveStatus::diverged) return flow.uniform_state();
   std::vector<double> fine(flow.state_count());
   GridTransfer<Dim>(flow.domain(), domain).interpolate(w, fine, flow.time().instances());
@@ -76,16 +76,16 @@ std::vector<double> full_multigrid_start(const FlowEquations<Dim>& flow, const D
 }
 
 template PseudoTimeResult pseudo_time<2>(FlowEquations<2>&, Multigrid<2>&, std::span<double>,
-                                         std::span<const MotionState>, double, const PseudoTimeOptions&,
+                                         std::span<const MotionState>, TimeTerm, const PseudoTimeOptions&,
                                          const PseudoTimeObserver&);
 template PseudoTimeResult pseudo_time<3>(FlowEquations<3>&, Multigrid<3>&, std::span<double>,
-                                         std::span<const MotionState>, double, const PseudoTimeOptions&,
+                                         std::span<const MotionState>, TimeTerm, const PseudoTimeOptions&,
                                          const PseudoTimeObserver&);
 template std::vector<double> full_multigrid_start<2>(const FlowEquations<2>&, const DividedMesh<2>&,
-                                                     std::span<const MotionState>, double,
+                                                     std::span<const MotionState>, TimeTerm,
                                                      const PseudoTimeOptions&, const PseudoTimeObserver&);
 template std::vector<double> full_multigrid_start<3>(const FlowEquations<3>&, const DividedMesh<3>&,
-                                                     std::span<const MotionState>, double,
+                                                     std::span<const MotionState>, TimeTerm,
                                                      const PseudoTimeOptions&, const PseudoTimeObserver&);
 
 }  // namespace wingbeat

@@ -40,7 +40,7 @@ using PseudoTimeObserver = std::function<bool(const PseudoTimeIteration&)>;
 // solution. Collective.
 template <int Dim>
 PseudoTimeResult pseudo_time(FlowEquations<Dim>& flow, Multigrid<Dim>& multigrid, std::span<double> w,
-                             std::span<const MotionState> motions, double kappa,
+                             std::span<const MotionState> motions, TimeTerm term,
                              const PseudoTimeOptions& options, const PseudoTimeObserver& observer = {});
 
 // The start of pseudo_time: uniform flow on the coarsest mesh, brought by cycles to a modest
@@ -49,7 +49,7 @@ PseudoTimeResult pseudo_time(FlowEquations<Dim>& flow, Multigrid<Dim>& multigrid
 // level's iterations. Collective.
 template <int Dim>
 std::vector<double> full_multigrid_start(const FlowEquations<Dim>& flow, const DividedMesh<Dim>& mesh,
-                                         std::span<const MotionState> motions, double kappa,
+                                         std::span<const MotionState> motions, TimeTerm term,
                                          const PseudoTimeOptions& options,
                                          const PseudoTimeObserver& observer = {});
 

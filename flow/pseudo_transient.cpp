@@ -3,38 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flow/shifted_jacobian.hpp"
 #include "flow/spectral_radius.hpp"
 #include "flow/step_limit.hpp"
 
 namespace wingbeat {
-namespace {
-
-// dR/dw + diag(shift), shift a value a cell.
-template <int Dim>
-class ShiftedJacobian final : public LinearOperator<double> {
- public:
-  ShiftedJacobian(const FlowEquations<Dim>& flow, std::span<const double> shift)
-      : flow_(flow), shift_(shift) {}
-  std::size_t local_size() const override { return flow_.state_count(); }
-  void apply(std::span<const double> x, std::span<double> y) const override {
-    flow_.apply(x, y);
-    add_shift(x, y);
-  }
-  void apply_transpose(std::span<const double> x, std::span<double> y) const override {
-    flow_.apply_transpose(x, y);
-    add_shift(x, y);
-  }
-
- private:
-  void add_shift(std::span<const double> x, std::span<double> y) const {
-    for (std::size_t i = 0; i < x.size(); ++i) y[i] += shift_[i / state_size<Dim>] * x[i];
-  }
-  const FlowEquations<Dim>& flow_;
-  std::span<const double> shift_;
-};
-
-}  // namespace
-
 template <int Dim>
 PseudoTransientResult pseudo_transient(FlowEquations<Dim>& flow, const MotionState& motion,
                                        SchwarzSolver<double>& solver, std::span<double> w,

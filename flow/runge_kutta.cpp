@@ -70,14 +70,15 @@ void RungeKutta<Dim>::set_time_steps(std::span<const double> w, std::span<const 
 
 // Smoothing buys longer steps. Where the highest harmonic is held back to short ones it only keeps rough
 // errors of that harmonic from being damped: there it fades out, and the step with it
-// (eq:smoothing-of-harmonics).
+// (eq:smoothing-of-harmonics). The same holds where a shift makes the steps short (eq:dual-time-stage).
 template <int Dim>
-void RungeKutta<Dim>::set_smoothing(double kappa, double ratio) {
+void RungeKutta<Dim>::set_smoothing(TimeTerm term, double ratio) {
   const auto volumes = flow_.domain().volumes();
-  const double highest = harmonic_limit * kappa * flow_.time().harmonics();
+  const double highest = harmonic_limit * term.kappa * flow_.time().harmonics();
   std::vector<double> ratios(time_step_.size());
   for (std::size_t c = 0; c < ratios.size(); ++c) {
-    ratios[c] = std::max(1.0, ratio / std::hypot(1.0, highest * time_step_[c] * volumes[c]));
+    const double longest = time_step_[c] * volumes[c];
+    ratios[c] = std::max(1.0, ratio / std::hypot(1.0 + term.shift * longest, highest * longest));
     time_step_[c] *= ratios[c] / ratio;
   }
   // Shares of the sums are those of the means.
@@ -94,10 +95,10 @@ void RungeKutta<Dim>::set_harmonic_weights(double kappa) {
                              std::span<double>(harmonic_weights_).subspan(c * instances, instances));
 }
 
-// residual_ = -alpha dtau r with r = residual_ + kappa Omega D w - source. Returns the sum of squares
-// of r.
+// residual_ = -alpha dtau r / (1 + alpha dtau shift) with r = residual_ + kappa Omega D w + shift Omega
+// start_ - source. Returns the sum of squares of r.
 template <int Dim>
-double RungeKutta<Dim>::form_changes(std::span<const double> w, double kappa, std::span<const double> source,
+double RungeKutta<Dim>::form_changes(std::span<const double> w, TimeTerm term, std::span<const double> source,
                                      double alpha) {
   const std::size_t instances = flow_.instance_count(), count = flow_.domain().state_count();
   const std::span<const double> steps(time_step_), volumes = flow_.domain().volumes();
@@ -105,28 +106,30 @@ double RungeKutta<Dim>::form_changes(std::span<const double> w, double kappa, st
   const std::span<CellVector<n>> states(chunk_);
   double* const residual = residual_.data();
   CellVector<n> squares(0.0);
-  const auto finish = [&](std::size_t at, double step, CellVector<n> r) {
+  const auto finish = [&](std::size_t at, std::size_t cell, CellVector<n> r) {
+    const double shift = term.shift * volumes[cell];
+    if (shift != 0.0) r += shift * load_cell<n>(start_.data() + at);
     if (!source.empty()) r -= load_cell<n>(source.data() + at);
     squares += r * r;
-    store_cell<n>(-alpha * step * r, residual + at);
+    const double step = alpha * steps[cell];
+    store_cell<n>(-step / (1.0 + step * shift) * r, residual + at);
   };
-  if (kappa == 0.0) {
+  if (term.kappa == 0.0) {
     for (std::size_t i = 0, at = 0; i < instances; ++i)
-      for (std::size_t c = 0; c < steps.size(); ++c, at += n)
-        finish(at, steps[c], load_cell<n>(residual + at));
+      for (std::size_t c = 0; c < steps.size(); ++c, at += n) finish(at, c, load_cell<n>(residual + at));
     return std::experimental::reduce(squares);
   }
   for (std::size_t first = 0; first < steps.size(); first += chunk) {
     const std::size_t last = std::min(first + chunk, steps.size());
     for (std::size_t j = 0; j < instances; ++j)
       for (std::size_t c = first; c < last; ++c)
-        states[j * chunk + c - first] = kappa * volumes[c] * load_cell<n>(w.data() + j * count + c * n);
+        states[j * chunk + c - first] = term.kappa * volumes[c] * load_cell<n>(w.data() + j * count + c * n);
     for (std::size_t i = 0; i < instances; ++i)
       for (std::size_t c = first; c < last; ++c) {
         CellVector<n> r = load_cell<n>(residual + i * count + c * n);
         for (std::size_t j = 0; j < instances; ++j)
           r += derivative[i * instances + j] * states[j * chunk + c - first];
-        finish(i * count + c * n, steps[c], r);
+        finish(i * count + c * n, c, r);
       }
   }
   return std::experimental::reduce(squares);
@@ -159,20 +162,20 @@ void RungeKutta<Dim>::advance(std::span<double> w, double kappa) {
 }
 
 template <int Dim>
-double RungeKutta<Dim>::step(std::span<double> w, std::span<const MotionState> motions, double kappa,
+double RungeKutta<Dim>::step(std::span<double> w, std::span<const MotionState> motions, TimeTerm term,
                              std::span<const double> source, const RungeKuttaOptions& options) {
-  if (flow_.instance_count() == 1) kappa = 0.0;  // a single instance has no derivative
+  if (flow_.instance_count() == 1) term.kappa = 0.0;  // a single instance has no derivative
   std::copy(w.begin(), w.end(), start_.begin());
   set_time_steps(w, motions, options);
-  if (options.smoothing > 1.0) set_smoothing(kappa, options.smoothing);
-  if (kappa != 0.0) set_harmonic_weights(kappa);
+  if (options.smoothing > 1.0) set_smoothing(term, options.smoothing);
+  if (term.kappa != 0.0) set_harmonic_weights(term.kappa);
   double first_sum_of_squares = 0.0;
   for (const Stage& stage : stages) {
     flow_.stage_balance(w, motions, stage.renewed, dissipation_, residual_);
-    const double sum_of_squares = form_changes(w, kappa, source, stage.alpha);
+    const double sum_of_squares = form_changes(w, term, source, stage.alpha);
     if (&stage == &stages.front()) first_sum_of_squares = sum_of_squares;
     if (options.smoothing > 1.0) smoothing_.apply(residual_, flow_.time().instances());
-    advance(w, kappa);
+    advance(w, term.kappa);
   }
   return first_sum_of_squares;
 }

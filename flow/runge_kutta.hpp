@@ -19,7 +19,9 @@ struct RungeKuttaOptions {
 //   Omega dw/dtau = -(R(w) - source),
 // with local time steps, dissipation renewed at stages 1, 3 and 5, residuals smoothed implicitly,
 // and every harmonic held back in each cell as its own frequency demands (eq:inverse-modulus), so
-// that neither frequency nor number of harmonics restricts the step of the others.
+// that neither frequency nor number of harmonics restricts the step of the others. The shift of a
+// step in time is taken at the stage sought (eq:dual-time-stage): however short or long that step,
+// pseudo-time is stable.
 template <int Dim>
 class RungeKutta {
  public:
@@ -27,7 +29,7 @@ class RungeKutta {
 
   // Advances w by one step; `source` is empty (none) or has the size of w. Returns this rank's sum
   // of squares of R(w) - source before the step. Collective.
-  double step(std::span<double> w, std::span<const MotionState> motions, double kappa,
+  double step(std::span<double> w, std::span<const MotionState> motions, TimeTerm term,
               std::span<const double> source, const RungeKuttaOptions& options);
 
  private:
@@ -35,10 +37,11 @@ class RungeKutta {
 
   void set_time_steps(std::span<const double> w, std::span<const MotionState> motions,
                       const RungeKuttaOptions& options);
-  void set_smoothing(double kappa, double ratio);
+  void set_smoothing(TimeTerm term, double ratio);
   void set_harmonic_weights(double kappa);
-  // residual_ = R before time derivative -> change of a stage. Returns the sum of squares of R - source.
-  double form_changes(std::span<const double> w, double kappa, std::span<const double> source, double alpha);
+  // residual_ = R before its time term -> change of a stage. Returns the sum of squares of R - source,
+  // the shift in it taken at the start of the step.
+  double form_changes(std::span<const double> w, TimeTerm term, std::span<const double> source, double alpha);
   void advance(std::span<double> w, double kappa);
 
   FlowEquations<Dim>& flow_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "core/io/error.hpp"
@@ -117,6 +118,21 @@ AerodynamicTable tabulate(const AerodynamicMatrix& q, std::span<const double> k)
   std::vector<Eigen::MatrixXcd> samples;
   for (const double frequency : k) samples.push_back(q(frequency));
   return {{k.begin(), k.end()}, std::move(samples)};
+}
+
+AerodynamicTable with_samples(const AerodynamicTable& table, const AerodynamicMatrix& q,
+                              std::span<const double> k) {
+  std::map<double, Eigen::MatrixXcd> samples;
+  for (std::size_t j = 0; j < table.sampled_k().size(); ++j)
+    samples.emplace(table.sampled_k()[j], table.samples()[j]);
+  for (const double frequency : k) samples.emplace(frequency, q(frequency));
+  std::vector<double> sorted_k;
+  std::vector<Eigen::MatrixXcd> sorted_q;
+  for (const auto& [frequency, sample] : samples) {
+    sorted_k.push_back(frequency);
+    sorted_q.push_back(sample);
+  }
+  return {std::move(sorted_k), std::move(sorted_q)};
 }
 
 std::vector<double> spread_reduced_frequencies(double k_min, double k_max, int count) {

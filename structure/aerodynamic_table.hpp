@@ -39,6 +39,10 @@ class AerodynamicTable {
 // Evaluates q at every k, in the order given.
 AerodynamicTable tabulate(const AerodynamicMatrix& q, std::span<const double> k);
 
+// The table with q evaluated at more k, none of which is among the samples.
+AerodynamicTable with_samples(const AerodynamicTable& table, const AerodynamicMatrix& q,
+                              std::span<const double> k);
+
 // `count` reduced frequencies from k_min to k_max, dense at the lower end, where the wake bends Q most.
 std::vector<double> spread_reduced_frequencies(double k_min, double k_max, int count);
 

@@ -26,16 +26,16 @@ std::vector<double> repeated(const std::vector<double>& one, std::size_t instanc
 template <int Dim>
 AeroelasticProblem<Dim>::AeroelasticProblem(FlowEquations<Dim>& flow, StructuralEquation structure,
                                             const SectionKinematics& kinematics,
-                                            std::optional<EnergyCondition> amplitude, AeroelasticState base,
+                                            std::optional<CycleCondition> cycle, AeroelasticState base,
                                             HarmonicFactors factors, const AeroelasticTolerances& tolerances)
     : flow_(flow),
       structure_(std::move(structure)),
-      amplitude_(std::move(amplitude)),
+      cycle_(std::move(cycle)),
       base_(std::move(base)),
       tolerances_(tolerances),
-      scale_(amplitude_ ? std::sqrt(amplitude_->energy) : 1.0),
+      scale_(cycle_ ? std::sqrt(cycle_->energy.energy) : 1.0),
       uniform_residual_(flow.uniform_residual()),
-      linearization_{&flow, kinematics, base_.r, amplitude_.has_value(), {}, {}, {}, {}},
+      linearization_{&flow, kinematics, base_.r, cycle_.has_value(), {}, {}, {}, {}},
       jacobian_(linearization_),
       harmonic_(flow.domain(), flow.time(), std::move(factors)),
       preconditioner_(linearization_, harmonic_) {
@@ -112,7 +112,9 @@ bool AeroelasticProblem<Dim>::residual(std::span<const double> u, std::span<doub
   for (double& value : s) value /= scale_;
   if (is_periodic()) {
     tail[at.y.size()] = value(AmplitudeCondition(phase_), at.y) / scale_;
-    tail[at.y.size() + 1] = value(AmplitudeCondition(*amplitude_), at.y);
+    tail[at.y.size() + 1] =
+        cycle_->by_energy * value(AmplitudeCondition(cycle_->energy), at.y) +
+        cycle_->by_speed * (kinematics.reduced_velocity(at.r) / cycle_->reduced_velocity - 1.0);
   }
   return true;
 }
@@ -214,8 +216,10 @@ void AeroelasticProblem<Dim>::linearize_tail(const AeroelasticState& at, const s
   add_gradient(AmplitudeCondition(phase_), at.y, 1.0, row);
   tail.row(states).head(states) = Eigen::Map<Eigen::RowVectorXd>(row.data(), states);
   std::fill(row.begin(), row.end(), 0.0);
-  add_gradient(AmplitudeCondition(*amplitude_), at.y, scale_, row);
+  add_gradient(AmplitudeCondition(cycle_->energy), at.y, cycle_->by_energy * scale_, row);
   tail.row(states + 1).head(states) = Eigen::Map<Eigen::RowVectorXd>(row.data(), states);
+  tail(states + 1, states + 1) = cycle_->by_speed * linearization_.kinematics.reduced_velocity(at.r) /
+                                 (2.0 * at.r * cycle_->reduced_velocity);
 }
 
 template <int Dim>

@@ -39,16 +39,16 @@ struct AeroelasticState {
 
 // The flutter or limit-cycle problem of a rigid section, F = (R/s, S/s, Y/s, E) in the unknowns
 // (w^, y^, omega, r) with w = w_s + s w^, y = y_s + s y^, s = sqrt(E_0): every block is O(1) however
-// small the amplitude (eq:closed-system). With no amplitude condition it is static aeroelastic
-// equilibrium, F = (R, S) in (w, y) at given r, with N_H = 0 and s = 1.
-// Vectors hold w^ of the rank's cells; on rank 0, y^ (and omega, r) follow.
+// small the amplitude (eq:closed-system); E is the row of `cycle` (eq:cycle-row). Without one it is static
+// aeroelastic equilibrium, F = (R, S) in (w, y) at given r, with N_H = 0 and s = 1. Vectors hold w^ of the
+// rank's cells; on rank 0, y^ (and omega, r) follow.
 template <int Dim>
 class AeroelasticProblem final : public Problem {
  public:
   // `base`: w_s and y_s, one instance of each, that w^ and y^ are measured from; its r holds in
   // static equilibrium. `factors` may hold factors already, of matrices near those to come.
   AeroelasticProblem(FlowEquations<Dim>& flow, StructuralEquation structure,
-                     const SectionKinematics& kinematics, std::optional<EnergyCondition> amplitude,
+                     const SectionKinematics& kinematics, std::optional<CycleCondition> cycle,
                      AeroelasticState base, HarmonicFactors factors, const AeroelasticTolerances& tolerances);
 
   std::vector<double> unknowns(const AeroelasticState& state) const;
@@ -67,14 +67,14 @@ class AeroelasticProblem final : public Problem {
   double excess(std::span<const double> f) const override;
 
  private:
-  bool is_periodic() const { return amplitude_.has_value(); }
+  bool is_periodic() const { return cycle_.has_value(); }
   std::vector<double> forces(const AeroelasticState& state);  // f = (-C_l, 2 C_m) of every instance
   void linearize_tail(const AeroelasticState& state, const std::vector<double>& f);
   void linearize_flow_by_frequency(const AeroelasticState& state, std::span<const double> u);
 
   FlowEquations<Dim>& flow_;
   StructuralEquation structure_;
-  std::optional<EnergyCondition> amplitude_;
+  std::optional<CycleCondition> cycle_;
   HarmonicCondition phase_;
   AeroelasticState base_;
   AeroelasticTolerances tolerances_;

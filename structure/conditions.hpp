@@ -35,6 +35,17 @@ struct EnergyCondition {
 // Throws InputError unless E_0 > 0.
 EnergyCondition energy_condition(const StructureModel& model, double energy);
 
+// The row that picks one cycle of a branch: of an energy, of a speed, or on a line across both
+// (eq:cycle-row): by_energy (E_fl/E_0 - 1) + by_speed (V/V_0 - 1).
+struct CycleCondition {
+  EnergyCondition energy;         // E_0 is also what the unknowns are scaled by
+  double reduced_velocity = 1.0;  // V_0
+  double by_energy = 1.0;
+  double by_speed = 0.0;
+
+  CycleCondition(EnergyCondition of) : energy(std::move(of)) {}
+};
+
 using AmplitudeCondition = std::variant<EnergyCondition, HarmonicCondition>;
 
 double value(const AmplitudeCondition& condition, std::span<const double> y);

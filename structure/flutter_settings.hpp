@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <vector>
 
 #include "core/io/settings.hpp"
 
@@ -13,18 +12,6 @@ struct FlutterSettings {
   std::array<double, 2> reduced_frequency_range{0.02, 0.6};
   int samples = 12;
 
-  void describe(SettingSection& keys);
-};
-
-// [pk]: where frequency and damping are tabulated.
-struct PkSettings {
-  std::vector<double> reduced_velocities;
-  std::array<double, 2> reduced_velocity_range{0.1, 5.0};
-  int frequencies = 24;
-  int samples = 50;
-
-  // The given list, or the range at equal steps.
-  std::vector<double> velocities() const;
   void describe(SettingSection& keys);
 };
 

@@ -30,11 +30,6 @@ void require_mode(int mode, int size, const char* what) {
 
 }  // namespace
 
-RestoringForce polynomial_spring(int mode, double cubic, double quintic) {
-  return {mode, [=](double u) { return u * u * u * (cubic + quintic * u * u); },
-          [=](double u) { return u * u * (3.0 * cubic + 5.0 * quintic * u * u); }};
-}
-
 void check(const StructureModel& model) {
   const int m = model.size();
   if (m == 0) throw InputError("structure: no modes; a model needs at least one");

@@ -1,32 +1,23 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <functional>
 #include <string>
 #include <vector>
 
+#include "structure/springs.hpp"
+
 namespace wingbeat {
-
-// Force g(u) that the spring of one mode adds to its linear part, with its derivative g'(u).
-struct RestoringForce {
-  int mode = 0;
-  std::function<double(double)> value;
-  std::function<double(double)> derivative;
-};
-
-// g(u) = cubic u^3 + quintic u^5.
-RestoringForce polynomial_spring(int mode, double cubic, double quintic);
 
 // M u'' + C u' + K u + g(u) = c V^2 f in m modes, time in 1/omega_alpha  (eq:structure).
 // f are generalised forces by virtual work, V the reduced velocity U/(c omega_alpha).
 struct StructureModel {
-  std::vector<std::string> modes;  // names, m of them
-  Eigen::MatrixXd mass;            // M, m x m, symmetric positive definite
-  Eigen::MatrixXd damping;         // C, m x m
-  Eigen::MatrixXd stiffness;       // K, m x m, symmetric
-  double load_factor = 0.0;        // c; 4/(pi mu) for a typical section
-  int phase_mode = 0;              // the mode whose first harmonic has no cosine
-  std::vector<RestoringForce> restoring;
+  std::vector<std::string> modes;         // names, m of them
+  Eigen::MatrixXd mass;                   // M, m x m, symmetric positive definite
+  Eigen::MatrixXd damping;                // C, m x m
+  Eigen::MatrixXd stiffness;              // K, m x m, symmetric
+  double load_factor = 0.0;               // c; 4/(pi mu) for a typical section
+  int phase_mode = 0;                     // the mode whose first harmonic has no cosine
+  std::vector<RestoringForce> restoring;  // g; linear flutter, p-k and divergence see K alone
 
   int size() const { return static_cast<int>(modes.size()); }
   // Factor of the generalised forces at reduced velocity V.

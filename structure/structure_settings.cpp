@@ -26,6 +26,27 @@ void StructureSettings::describe(SettingSection& keys) {
   keys.add("damping", &damping,
            {.help = "fraction of critical damping of the two in-vacuo modes, lower frequency first",
             .range = between(0, 1)});
+  keys.add("plunge_cubic", &plunge_cubic,
+           {.help = "plunge spring: plunge_cubic (h/b)^3 beside the linear (omega_h/omega_alpha)^2 h/b"});
+  keys.add("plunge_quintic", &plunge_quintic, {.help = "plunge spring: plunge_quintic (h/b)^5 is added"});
+  keys.add(
+      "pitch_cubic", &pitch_cubic,
+      {.help = "pitch spring: pitch_cubic alpha^3, alpha in radians, beside the linear r_alpha^2 alpha"});
+  keys.add("pitch_quintic", &pitch_quintic,
+           {.help = "pitch spring: pitch_quintic alpha^5, alpha in radians, is added"});
+  keys.add("plunge_freeplay", &plunge_freeplay,
+           {.help = "half the dead zone of the linear plunge spring; linear flutter and pk go without it, as "
+                    "large motion would",
+            .unit = "semichords",
+            .range = at_least(0)});
+  keys.add("pitch_freeplay_deg", &pitch_freeplay_deg,
+           {.help = "half the dead zone of the linear pitch spring; linear flutter and pk go without it, as "
+                    "large motion would",
+            .unit = "deg",
+            .range = between(0, 90)});
+  keys.add("freeplay_smoothing", &freeplay_smoothing,
+           {.help = "how far the corners of the dead zones are rounded, over their half widths",
+            .range = between(1e-3, 1)});
   keys.add_rule(
       "gyration_radius_squared",
       [this] { return gyration_radius_squared > static_unbalance * static_unbalance; },

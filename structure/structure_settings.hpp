@@ -6,8 +6,6 @@
 
 namespace wingbeat {
 
-struct TypicalSection;
-
 // [structure]: the pitch-plunge section, in semichords and 1/omega_alpha.
 struct StructureSettings {
   double elastic_axis = 0.0;             // a, aft of mid-chord
@@ -16,6 +14,11 @@ struct StructureSettings {
   double frequency_ratio = 0.0;          // omega_h / omega_alpha
   double mass_ratio = 0.0;               // m / (pi rho b^2)
   std::array<double, 2> damping{0.0, 0.0};
+  double plunge_cubic = 0.0, plunge_quintic = 0.0;
+  double pitch_cubic = 0.0, pitch_quintic = 0.0;
+  double plunge_freeplay = 0.0;     // semichords
+  double pitch_freeplay_deg = 0.0;  // degrees
+  double freeplay_smoothing = 0.1;
 
   void describe(SettingSection& keys);
 };

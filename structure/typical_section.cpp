@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "core/io/error.hpp"
 
@@ -14,6 +15,14 @@ namespace {
 void require_positive(double value, const char* key) {
   if (!(value > 0.0) || !std::isfinite(value))
     throw InputError(fmt::format("structure.{} = {}: must be a number > 0", key, value));
+}
+
+void check(const SectionSpring& spring, const char* mode, const char* freeplay_key) {
+  for (const auto& [value, key] : {std::pair{spring.cubic, "cubic"}, {spring.quintic, "quintic"}})
+    if (!std::isfinite(value))
+      throw InputError(fmt::format("structure.{}_{} = {}: must be a number", mode, key, value));
+  if (!(spring.freeplay >= 0.0) || !std::isfinite(spring.freeplay))
+    throw InputError(fmt::format("structure.{} = {}: must be a number >= 0", freeplay_key, spring.freeplay));
 }
 
 void check(const TypicalSection& section) {
@@ -32,6 +41,16 @@ void check(const TypicalSection& section) {
         fmt::format("structure.static_unbalance = {}: its square must be less than "
                     "structure.gyration_radius_squared = {}",
                     unbalance, section.gyration_radius_squared));
+  check(section.plunge_spring, "plunge", "plunge_freeplay");
+  check(section.pitch_spring, "pitch", "pitch_freeplay_deg");
+  require_positive(section.freeplay_smoothing, "freeplay_smoothing");
+}
+
+void add_spring(StructureModel& model, int mode, const SectionSpring& spring, double smoothing) {
+  if (spring.cubic != 0.0 || spring.quintic != 0.0)
+    model.restoring.push_back(polynomial_spring(mode, spring.cubic, spring.quintic));
+  if (spring.freeplay > 0.0)
+    model.restoring.push_back(freeplay_spring(mode, model.stiffness(mode, mode), spring.freeplay, smoothing));
 }
 
 }  // namespace
@@ -50,6 +69,8 @@ StructureModel structure_model(const TypicalSection& section) {
   model.damping = modal_damping(model, Eigen::Vector2d(section.damping[0], section.damping[1]));
   model.load_factor = 4.0 / (std::numbers::pi * section.mass_ratio);
   model.phase_mode = pitch_mode;
+  add_spring(model, plunge_mode, section.plunge_spring, section.freeplay_smoothing);
+  add_spring(model, pitch_mode, section.pitch_spring, section.freeplay_smoothing);
   return model;
 }
 

@@ -7,15 +7,21 @@ from style import COLOURS, plt
 
 NAME = "convergence"
 SOURCE = "history.csv"
+CAPTION = "Residuals of all stages of the run, and what their linear solves cost."
+LOWEST = 1e-16  # round-off
+NARROWEST = 0.07  # share of the axis that a stage needs for its name
 ROWS = ["flow", "structure", "phase", "energy"]
 
 
 def shade_stages(axes, stages):
-    """A band for each stage, its name above."""
+    """A band for each stage, the name above the wide ones."""
+    total = sum(len(rows) for rows in stages.values())
     for number, (stage, rows) in enumerate(stages.items()):
         first, last = rows[0] - 0.5, rows[-1] + 0.5
         if number % 2:
             axes.axvspan(first, last, color="#f1f3f5", linewidth=0, zorder=0)
+        if len(rows) < NARROWEST * total and len(stages) > 1:
+            continue
         axes.annotate(stage, (0.5 * (first + last), 1.0), xycoords=("data", "axes fraction"), xytext=(0, 3),
                       textcoords="offset points", ha="center", va="bottom", fontsize=8)
 
@@ -44,7 +50,8 @@ def draw(folder):
         if name in table:
             plot_residual(upper, table, stages, name)
     shade_stages(upper, stages)
-    upper.set(ylabel="residual")
+    lowest, highest = upper.get_ylim()
+    upper.set(ylabel="residual", ylim=(max(lowest, LOWEST), highest))
     upper.yaxis.set_major_locator(plt.LogLocator(base=10.0, numticks=20))
     upper.legend(loc="best")
     if linear is not None:

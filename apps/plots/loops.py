@@ -2,20 +2,14 @@
 
 import numpy as np
 
+from curves import series
 from read import case_value, read_case, read_table
 from style import COLOURS, phase_colour, plt
 
 NAME = "loops"
 SOURCE = "loads.csv"
-
-
-def series(values, theta):
-    """The harmonics that pass through values at equal steps of a period, at phases theta."""
-    count = len(values)
-    coefficients = np.fft.rfft(values) / count
-    orders = np.arange(len(coefficients))
-    weights = np.where(orders == 0, 1.0, 2.0)
-    return np.real(np.exp(1j * np.outer(theta, orders)) @ (weights * coefficients))
+CAPTION = ("Lift and moment over one period of the prescribed motion. The curve is the series of harmonics through "
+           "the instances (marks); the arrow tells the way round.")
 
 
 def title_of(folder):

@@ -8,6 +8,7 @@ from style import COLOURS, plt
 
 NAME = "mesh"
 SOURCE = "mesh.csv"
+CAPTION = "The mesh near the section, and its two ends enlarged."
 
 
 def grid_lines(table):

@@ -5,10 +5,13 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import ListedColormap, Normalize
 
 from read import case_value, groups, read_case, read_result, read_table
+from runs import march_summaries
 from style import COLOURS, mark_zero, phase_colour, plt
 
 NAME = "pressure"
 SOURCE = "surface.csv"
+CAPTION = ("Pressure coefficient on the section, suction upwards; full: upper surface, broken: lower. Of a periodic "
+           "flow each instance, and below how far it departs from their mean.")
 MOST_IN_LEGEND = 7
 
 
@@ -29,10 +32,10 @@ def surfaces(x, rows):
     return rows[:nose + 1], rows[nose:]
 
 
-def plot_instance(axes, x, values, rows, colour, label):
+def plot_instance(axes, x, values, rows, colour, label, linewidth=1.4):
     lower, upper = surfaces(x, rows)
-    axes.plot(x[upper], values[upper], color=colour, label=label)
-    axes.plot(x[lower], values[lower], color=colour, linestyle=(0, (4, 2)))
+    axes.plot(x[upper], values[upper], color=colour, linewidth=linewidth, label=label)
+    axes.plot(x[lower], values[lower], color=colour, linewidth=linewidth, linestyle=(0, (4, 2)))
 
 
 def label_of(phase):
@@ -52,7 +55,8 @@ def add_key(figure, axes, instances):
 def title_of(folder, periodic):
     result, case = read_result(folder), read_case(folder)
     parts = [f"Mach {case_value(case, 'flow', 'mach'):g}"] if case_value(case, "flow", "mach") else []
-    amplitude = (result.get("flutter") or {}).get("pitch_amplitude_deg")
+    cycles = [result.get("flutter"), *(result.get("lco") or []), *march_summaries(folder)]
+    amplitude = next((cycle.get("pitch_amplitude_deg") for cycle in reversed(cycles) if cycle), None)
     if "pitch" in result:
         amplitude = case_value(case, "pitch", "amplitude_deg")
     if periodic and amplitude:
@@ -75,11 +79,30 @@ def draw_changes(axes, table, instances):
     axes.invert_yaxis()
 
 
-def draw(folder):
+def read_instances(folder):
+    """The table and its instances; None if there is none."""
     table = read_table(folder / SOURCE, ["instance", "phase", "x_body", "y_body", "cp"])
-    if table is None:
+    return None if table is None else (table, instances_of(table))
+
+
+def mark_sonic(axes, folder, labelled=True):
+    """The pressure coefficient of sonic flow, where the case tells the Mach number."""
+    case = read_case(folder)
+    mach, gamma = case_value(case, "flow", "mach"), case_value(case, "flow", "gamma", 1.4)
+    if not mach:
+        return
+    sonic = sonic_pressure_coefficient(mach, gamma)
+    axes.axhline(sonic, color=COLOURS["sonic"], linewidth=0.9, linestyle=":")
+    if labelled:
+        axes.annotate(rf"sonic, $C_p^*$ = {sonic:.3f}", (1.0, sonic), xycoords=("axes fraction", "data"),
+                      xytext=(-4, 3), textcoords="offset points", ha="right", fontsize=8, color=COLOURS["sonic"])
+
+
+def draw(folder):
+    found = read_instances(folder)
+    if found is None:
         return None
-    instances = instances_of(table)
+    table, instances = found
     alike = len({len(rows) for _, rows in instances}) == 1
     periodic = len(instances) > 1 and alike
     figure, panels = plt.subplots(2 if periodic else 1, 1, figsize=(8, 8 if periodic else 5.2), sharex=True,
@@ -88,16 +111,10 @@ def draw(folder):
     axes = panels[0, 0]
     for phase, rows in instances:
         colour = phase_colour(phase / (2.0 * np.pi)) if periodic else COLOURS["flow"]
-        plot_instance(axes, table["x_body"], table["cp"], rows, colour, label_of(phase) if periodic else "upper surface")
+        label = label_of(phase) if periodic else "upper surface"
+        plot_instance(axes, table["x_body"], table["cp"], rows, colour, label)
     axes.plot([], [], color=COLOURS["line" if periodic else "flow"], linestyle=(0, (4, 2)), label="lower surface")
-
-    case = read_case(folder)
-    mach, gamma = case_value(case, "flow", "mach"), case_value(case, "flow", "gamma", 1.4)
-    if mach:
-        sonic = sonic_pressure_coefficient(mach, gamma)
-        axes.axhline(sonic, color=COLOURS["sonic"], linewidth=0.9, linestyle=":")
-        axes.annotate(rf"sonic, $C_p^*$ = {sonic:.3f}", (1.0, sonic), xycoords=("axes fraction", "data"),
-                      xytext=(-4, 3), textcoords="offset points", ha="right", fontsize=8, color=COLOURS["sonic"])
+    mark_sonic(axes, folder)
     axes.invert_yaxis()
     axes.set(ylabel=r"pressure coefficient $C_p$", title=title_of(folder, periodic))
     if periodic:

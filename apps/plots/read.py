@@ -11,6 +11,10 @@ class BadTable(Exception):
     """A file that is there but does not hold what it should."""
 
 
+class Skipped(Exception):
+    """A figure that cannot be drawn on this machine."""
+
+
 def read_table(path, columns):
     """Columns by name: arrays of numbers (empty cells are NaN), or lists of texts where a cell is no number.
 

@@ -3,6 +3,7 @@
 import colorsys
 
 import matplotlib
+import numpy as np
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
@@ -18,6 +19,9 @@ COLOURS = {
     "pitch": "#c8501e",
     "lift": "#1f5fa8",
     "moment": "#c8501e",
+    # methods, where both are on one figure
+    "time-spectral": "#1f5fa8",
+    "march": "#1c1c1c",
     # marks
     "flutter": "#b3152b",
     "sonic": "#606060",
@@ -25,6 +29,7 @@ COLOURS = {
     "mesh": "#3a4653",
     "linear": "#a9b4bf",
 }
+LINES = ["-", (0, (5, 2)), (0, (1, 1.3)), (0, (5, 1.5, 1, 1.5))]  # runs beside each other
 # Modes beyond the two of a section, branches of any number.
 FURTHER = ["#2f8f57", "#8a4fa3", "#a08018", "#3a98a8", "#7a4a2a", "#606060"]
 
@@ -47,6 +52,21 @@ plt.rcParams.update({
 })
 
 
+def harmonic_colour(harmonics):
+    """Colour of the cycles with N_H harmonics: the more, the darker."""
+    return matplotlib.colormaps["viridis"](np.interp(harmonics, [1.0, 6.0], [0.86, 0.08]))
+
+
+def speed_colours(count):
+    """Colours of rising speeds."""
+    return [matplotlib.colormaps["plasma"](share) for share in np.linspace(0.02, 0.82, max(count, 2))][:count]
+
+
+def energy_colours(count):
+    """Colours of rising energies: the larger, the darker."""
+    return [matplotlib.colormaps["PuRd"](share) for share in np.linspace(0.42, 1.0, max(count, 2))][:count]
+
+
 def mode_colour(name, number):
     """Colour of a mode of vibration: its own, or the next of the further ones."""
     return COLOURS[name] if name in COLOURS else FURTHER[number % len(FURTHER)]
@@ -63,3 +83,27 @@ def mark_zero(axes):
 
 def mark_speed(axes, value, name="flutter"):
     axes.axvline(value, color=COLOURS[name], linewidth=1.0, linestyle=(0, (4, 3)), zorder=1)
+
+
+def panel_grid(count, most_columns, size, right=0.15):
+    """A figure with `count` panels of one size, in rows with few places left over: (figure, panels, grid).
+
+    Sizes in inches, `right`: what is left free there. The lowest panel of each column has the labels of the abscissa.
+    """
+    left, bottom, top, across, down = 0.75, 0.55, 0.65, 0.25, 0.45
+    columns = min(count, min(range(max(most_columns - 1, 1), most_columns + 1), key=lambda n: (-count % n, -n)))
+    rows = -(-count // columns)
+    if count % columns:
+        down = 0.75  # labels between the rows
+    width = left + columns * size[0] + (columns - 1) * across + right
+    height = bottom + rows * size[1] + (rows - 1) * down + top
+    places = {"left": left / width, "right": 1.0 - right / width, "bottom": bottom / height,
+              "top": 1.0 - top / height, "wspace": across / size[0], "hspace": down / size[1]}
+    figure, grid = plt.subplots(rows, columns, squeeze=False, sharex=True, sharey=True, figsize=(width, height),
+                                gridspec_kw=places)
+    for number, axes in enumerate(grid.flat):
+        if number >= count:
+            axes.axis("off")
+        elif number + columns >= count:
+            axes.tick_params(labelbottom=True)
+    return figure, list(grid.flat[:count]), grid

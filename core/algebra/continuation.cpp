@@ -10,8 +10,6 @@
 namespace wingbeat {
 namespace {
 
-// Nodes of the prediction: a parabola. Higher orders follow the roughness of single solutions.
-constexpr std::size_t most_nodes = 3;
 // A node nearer to its neighbour than this part of the newest step adds nothing but its errors.
 constexpr double crowded = 0.1;
 // A target this little beyond a step is reached in the same step.
@@ -181,7 +179,7 @@ void BranchFollower::accept(BranchPoint point) {
       nodes_.erase(nodes_.begin() + static_cast<std::ptrdiff_t>(i - 1));
   std::erase_if(nodes_, [&](const Node& node) { return std::abs(node.length - length) < crowded * step; });
   nodes_.push_back({std::move(point), length});
-  if (nodes_.size() > most_nodes) nodes_.erase(nodes_.begin());
+  if (nodes_.size() > static_cast<std::size_t>(options_.order) + 1) nodes_.erase(nodes_.begin());
   searched_.reset();
 }
 

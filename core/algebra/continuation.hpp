@@ -42,6 +42,7 @@ struct BranchOptions {
   double largest_step = 0.35;
   double least_step = 1e-3;
   int wanted_iterations = 5;  // of a correction: fewer lengthen the next step, more shorten it
+  int order = 2;              // of the prediction: 1, a line; 2, a parabola
 };
 
 // Where to stop on the family: at an amplitude or at a speed.
@@ -53,8 +54,8 @@ struct BranchTarget {
 
 enum class BranchStep { advanced, reached, failed, interrupted };
 
-// Follows a family by pseudo-arclength continuation (Keller 1977): predicts by a polynomial in the
-// length along the family, corrects on a line across the predicted direction, and sets the step by the
+// Follows a family by pseudo-arclength continuation (Keller 1977): predicts by a line or parabola in
+// the length along the family, corrects on a line across the predicted direction, and sets the step by the
 // iterations a correction takes. Folds in amplitude or speed are passed like any other point.
 class BranchFollower {
  public:

@@ -16,7 +16,7 @@ namespace {
 constexpr double sufficient_decrease = 1e-4;
 
 // A linear residual this far below what is asked of F: solving further would be for nothing.
-constexpr double enough = 0.2;
+constexpr double enough = 0.5;
 
 // Factors are out of date where a digit takes this many times the iterations it took when they were new.
 constexpr double outdated = 1.5;

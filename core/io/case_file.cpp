@@ -232,14 +232,22 @@ void Matcher::check_rules(const SettingSection& section) {
 
 void CaseFile::apply(SettingRegistry& settings, std::span<const std::string> used_sections,
                      const std::string& reader) const {
+  apply(
+      settings, [&] { return std::vector<std::string>(used_sections.begin(), used_sections.end()); }, reader);
+}
+
+void CaseFile::apply(SettingRegistry& settings,
+                     const std::function<std::vector<std::string>()>& used_sections,
+                     const std::string& reader) const {
   Matcher matcher(settings, data_->name);
   matcher.faults = data_->early_faults;
   for (const auto& [section, place] : data_->sections) matcher.check_section(section, place);
   std::vector<std::pair<KeyPath, Entry>> as_written(data_->entries.begin(), data_->entries.end());
   std::ranges::stable_sort(as_written, {}, [](const auto& item) { return item.second.order; });
   for (const auto& [path, entry] : as_written) matcher.read(path, entry);
+  const std::vector<std::string> used_names = used_sections();
   for (const auto& section : settings.sections()) {
-    const bool used = std::ranges::find(used_sections, section.name()) != used_sections.end();
+    const bool used = std::ranges::find(used_names, section.name()) != used_names.end();
     if (used) matcher.check_required(section, reader);
     if (used) matcher.check_rules(section);
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -31,6 +32,9 @@ class CaseFile {
   // Throws one InputError that lists every fault of the case with its place, value, what is
   // allowed and the nearest valid name.
   void apply(SettingRegistry& settings, std::span<const std::string> used_sections,
+             const std::string& reader) const;
+  // The same where the values decide which sections are used: asked once all have been read.
+  void apply(SettingRegistry& settings, const std::function<std::vector<std::string>()>& used_sections,
              const std::string& reader) const;
 
  private:

@@ -22,7 +22,10 @@ std::string list_text(const List& values) {
   for (const auto& value : values) items.push_back(text_of(value));
   return fmt::format("[{}]", fmt::join(items, ", "));
 }
-std::string text_of(const std::vector<double>& values) { return list_text(values); }
+template <class T>
+std::string text_of(const std::vector<T>& values) {
+  return list_text(values);
+}
 template <class T>
 std::string text_of(const std::array<T, 2>& values) {
   return list_text(values);
@@ -38,6 +41,7 @@ std::string type_of(const int*) { return "integer"; }
 std::string type_of(const double*) { return "number"; }
 std::string type_of(const std::string*) { return "text"; }
 std::string type_of(const std::vector<double>*) { return "list of numbers"; }
+std::string type_of(const std::vector<std::string>*) { return "list of texts"; }
 std::string type_of(const std::array<int, 2>*) { return "two integers"; }
 std::string type_of(const std::array<double, 2>*) { return "two numbers"; }
 template <class T>

@@ -47,8 +47,8 @@ struct KeyInfo {
 
 // The member of a settings struct that a key fills. An optional member stays empty unless given.
 using SettingTarget =
-    std::variant<bool*, int*, double*, std::string*, std::vector<double>*, std::array<int, 2>*,
-                 std::array<double, 2>*, std::optional<int>*, std::optional<double>*,
+    std::variant<bool*, int*, double*, std::string*, std::vector<double>*, std::vector<std::string>*,
+                 std::array<int, 2>*, std::array<double, 2>*, std::optional<int>*, std::optional<double>*,
                  std::optional<std::string>*, std::optional<std::array<double, 2>>*>;
 
 // One key of one section, bound to the value it fills.

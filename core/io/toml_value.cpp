@@ -103,10 +103,11 @@ Problem read(const toml::node& node, const Setting& setting, std::array<T, 2>& v
   return read_items(*array, setting, values);
 }
 
-Problem read(const toml::node& node, const Setting& setting, std::vector<double>& values) {
+template <class T>
+Problem read(const toml::node& node, const Setting& setting, std::vector<T>& values) {
   const toml::array* array = node.as_array();
   if (!array) return wrong_type(node, setting);
-  std::vector<double> items(array->size());
+  std::vector<T> items(array->size());
   if (const auto problem = read_items(*array, setting, items)) return problem;
   values = items;
   return {};

@@ -46,7 +46,7 @@ struct CoupledCase {
 
   // `energy` empty: static equilibrium.
   AeroelasticProblem<2>& pose(AeroelasticState base, std::optional<double> energy, double mean_pitch = 0.0) {
-    std::optional<EnergyCondition> amplitude;
+    std::optional<CycleCondition> amplitude;
     if (energy) amplitude = energy_condition(model, *energy);
     problem = std::make_unique<AeroelasticProblem<2>>(
         flow, StructuralEquation(model, time), SectionKinematics{flow_speed(), mean_pitch, 1.0}, amplitude,

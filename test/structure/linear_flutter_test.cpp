@@ -7,36 +7,16 @@
 #include "core/io/error.hpp"
 #include "structure/flutter_roots.hpp"
 #include "structure/pk.hpp"
-#include "structure/theodorsen.hpp"
-#include "structure/typical_section.hpp"
+#include "test/structure/theodorsen_cases.hpp"
 
 namespace wingbeat {
 namespace {
 
-struct Case {
-  TypicalSection section;
-  double speed;      // U/(b omega_alpha) = 2 V
-  double frequency;  // omega/omega_alpha
-};
-
-// Computed to 30 digits by an independent program.
-const std::vector<Case> cases = {
-    {{-0.6, .25, .75, .5, 75.0}, 6.895666081, .8145281754},
-    {{-0.5, .25, .75, .5, 75.0}, 6.090320747, .8046441358},
-    {{0.0, .25, .75, .5, 75.0}, 4.513328461, .7303411102},
-    {{-0.6, .25, .75, .8, 75.0}, 4.183222398, .9679284154},
-    {{-0.2, .2, .25, .4, 20.0}, 2.036571372, .6786771979},
-    {{-0.2, .1, .25, .5, 10.0}, 1.563414969, .7315138716},
-    {{-0.4, .2, .25, .5, 10.0}, 1.732623505, .7546201740},
-    {{-0.5, .25, .25, .3185, 100.0}, 5.6404552, .56989778},
-};
+using Case = testing::TheodorsenCase;
+const std::vector<Case>& cases = testing::theodorsen_cases;
 
 AerodynamicMatrix flat_plate(double elastic_axis) {
   return [elastic_axis](double k) { return theodorsen_matrix(elastic_axis, k); };
-}
-
-AerodynamicTable flat_plate_table(double elastic_axis, int samples) {
-  return tabulate(flat_plate(elastic_axis), spread_reduced_frequencies(0.02, 1.5, samples));
 }
 
 FlutterRoot flutter_point(const std::vector<FlutterRoot>& roots) {
@@ -57,11 +37,11 @@ double defect(const StructureModel& model, const Eigen::MatrixXcd& q, const Flut
 TEST(FlutterRoots, TheodorsensEightPointsToEightDigits) {
   for (const Case& expected : cases) {
     const TypicalSection& section = expected.section;
-    SCOPED_TRACE(testing::Message() << "U/(b omega_alpha) = " << expected.speed);
+    SCOPED_TRACE(::testing::Message() << "U/(b omega_alpha) = " << expected.speed);
     const StructureModel model = structure_model(section);
     const AerodynamicMatrix exact = flat_plate(section.elastic_axis);
     const FlutterRoot root =
-        flutter_point(flutter_roots(model, exact, flat_plate_table(section.elastic_axis, 16)));
+        flutter_point(flutter_roots(model, exact, testing::flat_plate_samples(section.elastic_axis, 16)));
     EXPECT_TRUE(root.is_converged);
     EXPECT_LE(root.evaluations, 3);
     EXPECT_NEAR(2.0 * root.reduced_velocity / expected.speed, 1.0, 1e-8);
@@ -72,8 +52,8 @@ TEST(FlutterRoots, TheodorsensEightPointsToEightDigits) {
 
 TEST(FlutterRoots, ReducedFrequencyMatchesTheReference) {
   const TypicalSection& section = cases[0].section;
-  const FlutterRoot root = flutter_point(
-      flutter_roots(structure_model(section), flat_plate(section.elastic_axis), flat_plate_table(-0.6, 12)));
+  const FlutterRoot root = flutter_point(flutter_roots(
+      structure_model(section), flat_plate(section.elastic_axis), testing::flat_plate_samples(-0.6, 12)));
   EXPECT_NEAR(root.reduced_frequency, .1181217544, 1e-10);
 }
 
@@ -102,7 +82,7 @@ TEST(FlutterRoots, PolishNeedsFewEvaluationsFromACoarseTable) {
 TEST(FlutterRoots, GrowthSlopeIsThatOfTheNonlinearEigenvalue) {
   const StructureModel model = structure_model(cases[4].section);
   const AerodynamicMatrix exact = flat_plate(-0.2);
-  const FlutterRoot root = flutter_point(flutter_roots(model, exact, flat_plate_table(-0.2, 24)));
+  const FlutterRoot root = flutter_point(flutter_roots(model, exact, testing::flat_plate_samples(-0.2, 24)));
   // Newton on (p, u) with Q continued analytically: p at V(1 +- h), central difference of Re p.
   const auto growth = [&](double velocity) {
     std::complex<double> p(0.0, root.frequency);
@@ -195,7 +175,8 @@ TEST(FlutterRoots, AgreeWithPkWithStructuralDamping) {
   TypicalSection section = cases[5].section;
   section.damping = {0.01, 0.03};
   const StructureModel model = structure_model(section);
-  const FlutterRoot root = flutter_point(flutter_roots(model, flat_plate(-0.2), flat_plate_table(-0.2, 24)));
+  const FlutterRoot root =
+      flutter_point(flutter_roots(model, flat_plate(-0.2), testing::flat_plate_samples(-0.2, 24)));
   EXPECT_TRUE(root.is_converged);
   EXPECT_GT(2.0 * root.reduced_velocity, 1.01 * cases[5].speed);
   const std::vector<double> speeds = {0.2, 0.4, 0.6, 0.8, 1.0, 1.2};
@@ -207,7 +188,7 @@ TEST(FlutterRoots, AgreeWithPkWithStructuralDamping) {
 TEST(FlutterRoots, RefusesRigidBodyModes) {
   StructureModel model = structure_model(cases[0].section);
   model.stiffness(0, 0) = 0.0;
-  EXPECT_THROW(scan_flutter_roots(model, flat_plate_table(-0.6, 8)), InputError);
+  EXPECT_THROW(scan_flutter_roots(model, testing::flat_plate_samples(-0.6, 8)), InputError);
 }
 
 TEST(Divergence, MatchesTheClosedFormOfATypicalSection) {
@@ -229,7 +210,7 @@ std::vector<double> speeds_up_to(double last, int count) {
 
 TEST(Pk, CrossesAtTheodorsensEightPoints) {
   for (const Case& expected : cases) {
-    SCOPED_TRACE(testing::Message() << "U/(b omega_alpha) = " << expected.speed);
+    SCOPED_TRACE(::testing::Message() << "U/(b omega_alpha) = " << expected.speed);
     const PkResult result = pk(structure_model(expected.section), flat_plate(expected.section.elastic_axis),
                                0.0, 100.0, speeds_up_to(0.65 * expected.speed, 25));
     ASSERT_GE(result.crossings.size(), 1u);
@@ -280,7 +261,7 @@ TEST(Pk, EveryPointSatisfiesItsEquation) {
 
 TEST(Pk, SaysWhereItLeavesTheTable) {
   const StructureModel model = structure_model(cases[0].section);
-  const AerodynamicTable table = flat_plate_table(-0.6, 16);  // k to 1.5
+  const AerodynamicTable table = testing::flat_plate_samples(-0.6, 16);  // k to 1.5
   const std::vector<double> speeds = speeds_up_to(4.0, 40);
   const PkResult result = pk(model, table, speeds);
   for (const std::vector<PkPoint>& branch : result.branches)
@@ -295,8 +276,8 @@ TEST(Pk, SaysWhereItLeavesTheTable) {
 
 TEST(Pk, RefusesSpeedsThatDoNotAscend) {
   const StructureModel model = structure_model(cases[0].section);
-  EXPECT_THROW(pk(model, flat_plate_table(-0.6, 8), std::vector<double>{1.0, 1.0}), InputError);
-  EXPECT_THROW(pk(model, flat_plate_table(-0.6, 8), std::vector<double>{0.0, 1.0}), InputError);
+  EXPECT_THROW(pk(model, testing::flat_plate_samples(-0.6, 8), std::vector<double>{1.0, 1.0}), InputError);
+  EXPECT_THROW(pk(model, testing::flat_plate_samples(-0.6, 8), std::vector<double>{0.0, 1.0}), InputError);
 }
 
 }  // namespace

@@ -1,0 +1,256 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "apps/case_mesh.hpp"
+#include "apps/flow_setup.hpp"
+#include "apps/linear_flutter_output.hpp"
+#include "apps/march_run.hpp"
+#include "apps/steady_stage.hpp"
+#include "apps/verbs.hpp"
+#include "core/io/error.hpp"
+#include "core/spectral/mean_instance.hpp"
+#include "structure/energy.hpp"
+#include "structure/growth_bracket.hpp"
+
+namespace wingbeat {
+namespace {
+
+constexpr double least_energy = 1e-6;  // of a start that the case does not describe
+constexpr int max_marches = 15;
+
+// What a march begins with.
+struct MarchStart {
+  SolveStatus status = SolveStatus::converged;
+  TimeLevels levels;
+  RestState rest;
+};
+
+class MarchCase {
+ public:
+  explicit MarchCase(Context& context)
+      : context_(context),
+        settings_(context.settings),
+        model_(structure_model(typical_section(settings_.structure))),
+        levels_(make_levels<2>(context, make_plane_mesh(settings_.mesh))),
+        level_(*levels_.back()),
+        history_(context) {}
+
+  SolveStatus run();
+
+ private:
+  SolveStatus find_flutter(Marcher& marcher, const MarchStart& start);
+  MarchStart begin();
+  MarchStart from_stored(StoredSolution stored);
+  RestState rest_at(double reduced_velocity);
+  TimeLevels disturbed(const RestState& rest, double reduced_velocity) const;
+  TimeLevels shrunk(const TimeLevels& levels, const RestState& from, const RestState& to,
+                    double reduced_velocity) const;
+  MarchCriteria criteria() const;
+  double speed(std::optional<double> stored = {}) const;
+  bool needs_rest() const { return context_.find_flutter; }
+  void finish(const MarchRun& run);
+
+  Context& context_;
+  const CaseSettings& settings_;
+  StructureModel model_;
+  FlowLevels<2> levels_;
+  FlowLevel<2>& level_;
+  History history_;
+};
+
+MarchCriteria MarchCase::criteria() const {
+  const MarchSettings& march = settings_.march;
+  return {march.growth_tolerance, std::nullopt, march.energy_tolerance, march.small_energy};
+}
+
+double MarchCase::speed(std::optional<double> stored) const {
+  if (settings_.march.reduced_velocity) return *settings_.march.reduced_velocity;
+  if (stored) return *stored;
+  throw InputError(
+      "march.reduced_velocity: missing; wingbeat march needs it, or a --restart that has a speed: V = U/(c "
+      "omega_alpha) (number, > 0)");
+}
+
+// The section's equilibrium at a speed. The level holds the steady flow about it undeflected.
+RestState MarchCase::rest_at(double reduced_velocity) {
+  const std::vector<MotionState> unmoved{at_rest(settings_)};
+  if (!is_deflected(level_.steady.loads(level_.w, unmoved)[0]))
+    return {level_.w, std::vector<double>(4, 0.0)};
+  const auto part = context_.timer.measure("equilibrium");
+  AeroelasticState state = static_equilibrium<2>(level_, model_, section_kinematics(settings_),
+                                                 reduced_velocity, linear_flutter_options(context_));
+  return {std::move(state.w), std::move(state.y)};
+}
+
+// The flow at rest and the section pushed off.
+TimeLevels MarchCase::disturbed(const RestState& rest, double reduced_velocity) const {
+  const MarchSettings& march = settings_.march;
+  std::vector<double> push{march.initial_plunge, march.initial_pitch_deg * std::numbers::pi / 180.0,
+                           march.initial_plunge_rate, march.initial_pitch_rate.value_or(0.0)};
+  if (!march.initial_pitch_rate && average_energy(model_, push) == 0.0)
+    push[3] = std::sqrt(2.0 * least_energy / model_.mass(pitch_mode, pitch_mode));
+  for (std::size_t j = 0; j < push.size(); ++j) push[j] += rest.y[j];
+  return {{rest.w}, {push}, march.time_step(), reduced_velocity, rest.y};
+}
+
+// The motion that a march ended with, about rest at another speed and as small as a start is.
+TimeLevels MarchCase::shrunk(const TimeLevels& levels, const RestState& from, const RestState& to,
+                             double reduced_velocity) const {
+  std::vector<double> departure = levels.y.front();
+  for (std::size_t j = 0; j < departure.size(); ++j) departure[j] -= from.y[j];
+  const double factor = std::sqrt(least_energy / average_energy(model_, departure));
+  TimeLevels result = levels;
+  result.reduced_velocity = reduced_velocity;
+  result.rest_y = to.y;
+  for (std::size_t k = 0; k < result.w.size(); ++k)
+    for (std::size_t i = 0; i < result.w[k].size(); ++i)
+      result.w[k][i] = to.w[i] + factor * (result.w[k][i] - from.w[i]);
+  for (auto& y : result.y)
+    for (std::size_t j = 0; j < y.size(); ++j) y[j] = to.y[j] + factor * (y[j] - from.y[j]);
+  return result;
+}
+
+// From a period, or from the levels of an earlier march.
+MarchStart MarchCase::from_stored(StoredSolution stored) {
+  MarchStart start;
+  AeroelasticState& state = stored.state;
+  const double v = speed(section_kinematics(settings_).reduced_velocity(state.r));
+  const double dtau = settings_.march.time_step();
+  const int order = settings_.march.order;
+  start.levels.dtau = dtau;
+  start.levels.reduced_velocity = v;
+  if (!stored.time_step) {
+    const TimeSpectral time((stored.instances() - 1) / 2);
+    start.levels.w = periodic_history(time, state.w, state.omega, dtau, order + 1);
+    start.levels.y = periodic_history(time, state.y, state.omega, dtau, order);
+    start.rest = {mean_instance(state.w, time), mean_instance(state.y, time)};
+  } else {
+    const std::size_t count = level_.domain.state_count();
+    const bool same_step = std::abs(*stored.time_step - dtau) <= 1e-9 * dtau;
+    if (!same_step)
+      context_.log.line("{}: its time step is {:.6g}, not {:.6g}: goes on from its last level alone",
+                        context_.restart->string(), *stored.time_step, dtau);
+    for (std::size_t k = 0; k < (same_step ? static_cast<std::size_t>(stored.instances()) : 1); ++k) {
+      start.levels.w.emplace_back(state.w.begin() + static_cast<std::ptrdiff_t>(k * count),
+                                  state.w.begin() + static_cast<std::ptrdiff_t>((k + 1) * count));
+      start.levels.y.emplace_back(state.y.begin() + static_cast<std::ptrdiff_t>(4 * k),
+                                  state.y.begin() + static_cast<std::ptrdiff_t>(4 * (k + 1)));
+    }
+    start.rest.y = stored.rest_y;
+  }
+  start.levels.rest_y = start.rest.y;
+  return start;
+}
+
+MarchStart MarchCase::begin() {
+  std::optional<MarchStart> start;
+  if (context_.restart) {
+    StoredSolution stored = read_stored_solution(context_, level_);
+    if (stored.time_step || stored.instances() > 1)
+      start = from_stored(std::move(stored));
+    else
+      level_.w = std::move(stored.state.w);
+  }
+  if (start && !needs_rest()) return *std::move(start);
+  const double v = start ? start->levels.reduced_velocity : speed();
+  const SolveStatus steady = run_steady_stage(context_, levels_, history_);
+  if (steady != SolveStatus::converged) return {steady, {}, {}};
+  RestState rest = rest_at(v);
+  if (!start) return {SolveStatus::converged, disturbed(rest, v), std::move(rest)};
+  start->rest = std::move(rest);
+  return *std::move(start);
+}
+
+void MarchCase::finish(const MarchRun& run) {
+  const auto part = context_.timer.measure("output");
+  write_time_levels(context_, level_, run.levels);
+  print_march(context_, run.summary);
+}
+
+SolveStatus MarchCase::find_flutter(Marcher& marcher, const MarchStart& start) {
+  const double tolerance = settings_.march.velocity_tolerance;
+  GrowthBracket search(start.levels.reduced_velocity, {.tolerance = tolerance});
+  TimeLevels levels = start.levels;
+  RestState rest = start.rest;
+  MarchRun run;
+  auto marches = nlohmann::ordered_json::array();
+  while (!search.is_found() && !search.is_exhausted()) {
+    if (search.points().size() == max_marches) {
+      context_.result.message = fmt::format(
+          "the flutter speed was not enclosed to march.velocity_tolerance = {:g} by {} marches; allow longer "
+          "march.periods, or start nearer",
+          tolerance, max_marches);
+      return SolveStatus::iteration_limit;
+    }
+    MarchCriteria wanted = criteria();
+    wanted.rate_tolerance = search.rate_tolerance();
+    wanted.energy_tolerance = 0.0;  // small motion only
+    run = marcher.run(levels, rest, wanted, "verdict");
+    context_.result.findings["march"] = march_entry(settings_, run.summary);
+    marches.push_back(context_.result.findings["march"]);
+    context_.result.findings["marches"] = marches;
+    finish(run);
+    const auto& growth = run.summary.assessment.growth;
+    if (run.status == SolveStatus::interrupted || run.status == SolveStatus::diverged || !growth) {
+      context_.result.message = fmt::format("the march at V = {:.6f} ended without a growth rate: {}",
+                                            levels.reduced_velocity, to_string(run.status));
+      return run.status == SolveStatus::converged ? SolveStatus::stalled : run.status;
+    }
+    search.add({levels.reduced_velocity, growth->rate, growth->rate_error, growth->frequency,
+                growth->frequency_error});
+    const double next = search.next();
+    RestState there = rest_at(next);
+    levels = shrunk(run.levels, rest, there, next);
+    rest = std::move(there);
+  }
+  const GrowthCrossing at = *search.crossing();
+  auto entry = flutter_point(settings_, at.reduced_velocity, at.frequency);
+  entry["reduced_velocity_error"] = at.reduced_velocity_error;
+  entry["frequency_error"] = at.frequency_error;
+  entry["growth_slope"] = at.slope;
+  entry["growth_rate"] = 0.0;
+  context_.result.findings["flutter"] = entry;
+  context_.result.message =
+      fmt::format("V_F = {:.6f} +- {:.1e}, omega = {:.6f} +- {:.1e}, by {} marches", at.reduced_velocity,
+                  at.reduced_velocity_error, at.frequency, at.frequency_error, search.points().size());
+  context_.log.line("{}", context_.result.message);
+  return search.is_found() ? SolveStatus::converged : SolveStatus::stalled;
+}
+
+SolveStatus MarchCase::run() {
+  const MarchStart start = begin();
+  if (start.status != SolveStatus::converged) return start.status;
+  MarchTable table(context_);
+  Marcher marcher(context_, level_, model_, table);
+  if (context_.find_flutter) return find_flutter(marcher, start);
+  const MarchSettings& march = settings_.march;
+  const MarchRun run = marcher.run(start.levels, start.rest, criteria(), march.until, march.snapshots);
+  context_.result.findings["march"] = march_entry(settings_, run.summary);
+  finish(run);
+  const auto verdict = to_string(run.summary.assessment.verdict);
+  switch (run.status) {
+    case SolveStatus::converged:
+      context_.result.message = fmt::format("V = {:.6f}: {}", start.levels.reduced_velocity, verdict);
+      break;
+    case SolveStatus::iteration_limit:
+      context_.result.message =
+          "no verdict in the time allowed; allow more march.periods and continue with --restart "
+          "solution.cgns";
+      break;
+    case SolveStatus::interrupted:
+      context_.result.message = "stopped by a signal or --walltime; continue with --restart solution.cgns";
+      break;
+    default:
+      context_.result.message =
+          "a time step was not solved; take more march.steps_per_period, or start from less energy";
+  }
+  return run.status;
+}
+
+}  // namespace
+
+SolveStatus run_march(Context& context) { return MarchCase(context).run(); }
+
+}  // namespace wingbeat
