@@ -8,8 +8,9 @@
 namespace wingbeat {
 namespace {
 
-// Speeds change by some per cent of themselves where amplitudes change by all of theirs.
-constexpr double speed_scale = 0.25;
+// Speeds change by some per cent of themselves where amplitudes change by all of theirs: amplitude leads,
+// but where the branch runs along the axis of speeds.
+constexpr double speed_scale = 1.0;
 // Few long steps beat many short ones: most of a correction's Krylov iterations come at its end.
 constexpr int wanted_iterations = 7;
 // Steps between the cycles asked for are solved to this many times the tolerances.
@@ -141,6 +142,10 @@ BranchStep CycleBranch::advance_to_energy(double energy) {
 
 BranchStep CycleBranch::advance_to_speed(double reduced_velocity) {
   return advance({BranchTarget::Kind::speed, reduced_velocity});
+}
+
+std::optional<BranchStep> CycleBranch::look_back_for_speed(double reduced_velocity) {
+  return follower_->look_back({BranchTarget::Kind::speed, reduced_velocity});
 }
 
 }  // namespace wingbeat

@@ -22,6 +22,8 @@ class CycleBranch {
   // A step towards a cycle of that energy or speed; see BranchFollower::advance.
   BranchStep advance_to_energy(double energy);
   BranchStep advance_to_speed(double reduced_velocity);
+  // The cycle of that speed, if the last step went over one.
+  std::optional<BranchStep> look_back_for_speed(double reduced_velocity);
 
   // The cycle solved last, with how it was solved. After `failed`, the one that did not converge.
   const CycleSolution& solution() const { return solution_; }

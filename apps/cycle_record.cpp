@@ -2,6 +2,7 @@
 
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <sstream>
@@ -55,6 +56,9 @@ CsvTable::Cell cell(const ordered_json& entry, const std::string& name) {
   if (entry[name].is_number_integer()) return entry[name].get<long>();
   return entry[name].get<double>();
 }
+
+// The same number but for what tolerances leave open.
+bool is_near(double a, double b) { return std::abs(a / b - 1.0) < 1e-8; }
 
 // Values of the keys that decide over a cycle.
 ordered_json physics(const CaseSettings& settings) {
@@ -123,11 +127,21 @@ ordered_json CycleRecord::asked() const {
 }
 
 bool CycleRecord::has_energy(double energy) const {
-  for (const ordered_json& line : lines_)
-    if (line["asked"].get<bool>() && line["entry"]["status"] == "converged" &&
-        std::abs(line["entry"]["energy"].get<double>() / energy - 1.0) < 1e-8)
-      return true;
-  return false;
+  return std::ranges::any_of(lines_, [energy](const ordered_json& line) {
+    return line["asked"].get<bool>() && line["entry"]["status"] == "converged" &&
+           is_near(line["entry"]["energy"].get<double>(), energy);
+  });
+}
+
+bool CycleRecord::holds(const CycleSolution& solution) const {
+  const double v = section_kinematics(context_.settings).reduced_velocity(solution.state.r);
+  return std::ranges::any_of(lines_, [&](const ordered_json& line) {
+    const ordered_json& entry = line["entry"];
+    return solution.status == SolveStatus::converged && entry["status"] == "converged" &&
+           entry["harmonics"] == time_of(solution.state).harmonics() &&
+           is_near(entry["reduced_velocity"].get<double>(), v) &&
+           is_near(entry["frequency_ratio"].get<double>(), solution.state.omega);
+  });
 }
 
 void CycleRecord::write() const {

@@ -21,8 +21,10 @@ class CycleRecord {
 
   // The cycles asked for, in the order found.
   nlohmann::ordered_json asked() const;
-  // A cycle of that energy, to twelve digits, asked for and found.
+  // A cycle of that energy was asked for and found.
   bool has_energy(double energy) const;
+  // The cycle is one of those found already, a restart's own.
+  bool holds(const CycleSolution& solution) const;
 
  private:
   void write() const;

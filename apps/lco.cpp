@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <optional>
+
 #include "apps/case_mesh.hpp"
 #include "apps/cycle_branch.hpp"
 #include "apps/cycle_record.hpp"
@@ -59,7 +62,66 @@ SolveStatus end_at(const LcoRun& run, const CycleBranch& branch, BranchStep step
                   target, where_it_ended(branch), branch.why()));
 }
 
-// Energies in the order given, then the speed, along one branch.
+// Follows the branch over the energies in the order given and meets the speed asked for where it lies on the
+// way, else beyond.
+class BranchWalk {
+ public:
+  BranchWalk(const LcoRun& run, CycleBranch& branch) : run_(run), branch_(branch) {}
+
+  // Both go on while there is no status to end with.
+  std::optional<SolveStatus> to_energy(double energy) {
+    while (true) {
+      const BranchStep step = branch_.advance_to_energy(energy);
+      if (is_end(step)) return end_at(run_, branch_, step, fmt::format("E_0 = {:g}", energy));
+      save(step == BranchStep::reached);
+      if (const auto ended = meet_speed()) return ended;
+      if (step == BranchStep::reached) return std::nullopt;
+    }
+  }
+
+  SolveStatus to_speed() {
+    while (seeks_speed() && branch_.energy() < lco().max_energy) {
+      const BranchStep step = branch_.advance_to_speed(*lco().reduced_velocity);
+      if (is_end(step)) return end_at(run_, branch_, step, fmt::format("V = {:g}", *lco().reduced_velocity));
+      save(step == BranchStep::reached);
+      is_speed_met_ = is_speed_met_ || step == BranchStep::reached;
+      if (const auto ended = meet_speed()) return *ended;
+    }
+    if (!lco().reduced_velocity || is_speed_met_) return run_.end_well();
+    return run_.end(
+        SolveStatus::stalled,
+        fmt::format("no cycle was found at lco.reduced_velocity = {:g} up to lco.max_energy = {:g}: "
+                    "{}; lco.csv shows which speeds the branch has",
+                    *lco().reduced_velocity, lco().max_energy, where_it_ended(branch_)));
+  }
+
+ private:
+  const LcoSettings& lco() const { return run_.context.settings.lco; }
+  static bool is_end(BranchStep step) {
+    return step == BranchStep::failed || step == BranchStep::interrupted;
+  }
+  bool seeks_speed() const { return lco().reduced_velocity && (!is_speed_met_ || lco().all_crossings); }
+  void save(bool is_asked) {
+    if (!run_.record.holds(branch_.solution())) run_.save(branch_.solution(), is_asked);
+  }
+
+  std::optional<SolveStatus> meet_speed() {
+    while (seeks_speed()) {
+      const auto step = branch_.look_back_for_speed(*lco().reduced_velocity);
+      if (!step) break;
+      if (is_end(*step))
+        return end_at(run_, branch_, *step, fmt::format("V = {:g}", *lco().reduced_velocity));
+      save(true);
+      is_speed_met_ = true;
+    }
+    return std::nullopt;
+  }
+
+  const LcoRun& run_;
+  CycleBranch& branch_;
+  bool is_speed_met_ = false;
+};
+
 SolveStatus follow_branch(const LcoRun& run, CycleSolver& solver, const CycleStart& start,
                           const std::vector<double>& energies, double first_energy) {
   const LcoSettings& lco = run.context.settings.lco;
@@ -68,39 +130,16 @@ SolveStatus follow_branch(const LcoRun& run, CycleSolver& solver, const CycleSta
   CycleBranch branch(run.context, run.model, solver, start, largest);
   const SolveStatus begun = branch.begin(first_energy);
   const bool first_is_asked = !energies.empty() && energies.front() == first_energy;
-  if (begun != SolveStatus::converged) {
-    run.save(branch.solution(), first_is_asked);
+  if (!run.record.holds(branch.solution())) run.save(branch.solution(), first_is_asked);
+  if (begun != SolveStatus::converged)
     return run.end(begun, cycle_advice(run.context.settings, branch.solution()));
-  }
-  run.save(branch.solution(), first_is_asked);
 
+  BranchWalk walk(run, branch);
   for (double energy : energies) {
     if (run.record.has_energy(energy)) continue;
-    for (BranchStep step = BranchStep::advanced; step != BranchStep::reached;) {
-      step = branch.advance_to_energy(energy);
-      if (step == BranchStep::failed || step == BranchStep::interrupted)
-        return end_at(run, branch, step, fmt::format("E_0 = {:g}", energy));
-      run.save(branch.solution(), step == BranchStep::reached);
-    }
+    if (const auto ended = walk.to_energy(energy)) return *ended;
   }
-  if (!lco.reduced_velocity) return run.end_well();
-  const std::string target = fmt::format("V = {:g}", *lco.reduced_velocity);
-  for (bool is_found = false; branch.energy() < lco.max_energy;) {
-    const BranchStep step = branch.advance_to_speed(*lco.reduced_velocity);
-    if (step == BranchStep::failed || step == BranchStep::interrupted) {
-      if (is_found && step == BranchStep::failed) break;
-      return end_at(run, branch, step, target);
-    }
-    run.save(branch.solution(), step == BranchStep::reached);
-    is_found = is_found || step == BranchStep::reached;
-    if (is_found && !lco.all_crossings) return run.end_well();
-    if (is_found && branch.energy() >= lco.max_energy) return run.end_well();
-  }
-  return run.end(
-      SolveStatus::stalled,
-      fmt::format("no cycle was found at lco.reduced_velocity = {:g} up to lco.max_energy = {:g}: {}; "
-                  "lco.csv shows which speeds the branch has",
-                  *lco.reduced_velocity, lco.max_energy, where_it_ended(branch)));
+  return walk.to_speed();
 }
 
 // By turns each cycle starts from the last one, scaled.

@@ -25,7 +25,9 @@ void LcoSettings::describe(SettingSection& keys) {
   keys.add("samples", &samples, {.help = "cycles over energy_range", .range = between(2, 10000)});
   keys.add(
       "reduced_velocity", &reduced_velocity,
-      {.help = "speed V at which a limit cycle is computed, after those of given energy", .range = above(0)});
+      {.help = "speed V at which a limit cycle is computed: the first of the branch, which is followed to "
+               "max_energy for it",
+       .range = above(0)});
   keys.add("all_crossings", &all_crossings,
            {.help = "with a coupled method: go on to max_energy and compute every cycle of that speed, on "
                     "both sides of a fold"});

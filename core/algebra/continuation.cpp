@@ -17,7 +17,7 @@ constexpr double stretch = 1.3;
 
 // How steeply, in the scales of the plane, the amplitude must change along the way for it to make a good
 // row: less, and the solution lies near a fold.
-constexpr double least_slope = 0.2;
+constexpr double least_slope = 0.1;
 
 // The row that holds the target itself, from its prediction.
 BranchRow row_at(const BranchTarget& target, const BranchPoint& point) {
@@ -89,14 +89,13 @@ std::optional<double> BranchFollower::length_to(const BranchTarget& target, doub
   return std::nullopt;
 }
 
-// A target between the last two nodes, where a step went over it; the next one where there are several.
-std::optional<BranchStep> BranchFollower::solve_between(const BranchTarget& target) {
+std::optional<BranchStep> BranchFollower::look_back(const BranchTarget& target) {
   const double here = nodes_.back().length, before = nodes_[nodes_.size() - 2].length;
-  if (searched_ != target) searched_to_ = before;
-  searched_ = target;
-  if (searched_to_ == here) return std::nullopt;
-  const auto length = length_to(target, searched_to_, here);
-  searched_to_ = length ? *length + 1e-3 * (here - before) : here;
+  auto searched = std::ranges::find(searched_, target, &std::pair<BranchTarget, double>::first);
+  if (searched == searched_.end()) searched = searched_.insert(searched, {target, before});
+  if (searched->second == here) return std::nullopt;
+  const auto length = length_to(target, searched->second, here);
+  searched->second = length ? *length + 1e-3 * (here - before) : here;
   if (!length) return std::nullopt;
   found_ = predicted(*length);
   const Correction correction = corrector_(found_, row_at(target, found_));
@@ -152,18 +151,14 @@ std::optional<BranchStep> BranchFollower::try_step(const BranchTarget& target) {
   accept(std::move(point));
   if (!onto) return BranchStep::advanced;
   found_ = last();
-  searched_ = target;
-  searched_to_ = nodes_.back().length;
+  searched_.emplace_back(target, nodes_.back().length);
   return BranchStep::reached;
 }
 
 BranchStep BranchFollower::advance(const BranchTarget& target) {
-  if (const auto outcome = solve_between(target)) return *outcome;
+  if (const auto outcome = look_back(target)) return *outcome;
   while (step_ >= options_.least_step) {
-    if (const auto outcome = try_step(target)) {
-      if (*outcome != BranchStep::advanced) return *outcome;
-      return solve_between(target).value_or(BranchStep::advanced);
-    }
+    if (const auto outcome = try_step(target)) return *outcome;
     step_ *= 0.5;
   }
   why_ += fmt::format(", even with a step of {:.1e}", 2.0 * step_);
@@ -180,7 +175,7 @@ void BranchFollower::accept(BranchPoint point) {
   std::erase_if(nodes_, [&](const Node& node) { return std::abs(node.length - length) < crowded * step; });
   nodes_.push_back({std::move(point), length});
   if (nodes_.size() > static_cast<std::size_t>(options_.order) + 1) nodes_.erase(nodes_.begin());
-  searched_.reset();
+  searched_.clear();
 }
 
 void BranchFollower::convert(const std::function<std::vector<double>(const std::vector<double>&)>& layout) {

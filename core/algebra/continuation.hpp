@@ -63,10 +63,13 @@ class BranchFollower {
   // that the family grows from, or an earlier solution. Both differ in amplitude or speed.
   BranchFollower(BranchPoint behind, BranchPoint first, const BranchOptions& options, Corrector corrector);
 
-  // A step towards the target: `advanced` when last() is a new solution short of it; `reached` when
-  // found() is the solution at the target, last() being that or one beyond it. A step that fails is
-  // tried again with half the length; below the least one it is given up: `failed`, see why().
+  // A step towards the target: `advanced` when last() is a new solution, short of the target or just over
+  // it; `reached` when found() is the solution at the target, last() being that or one beyond it. A step that
+  // fails is tried again with half the length; below the least one it is given up: `failed`, see why().
   BranchStep advance(const BranchTarget& target);
+  // Solves at a target that the last step went over, if it did: found(). Nothing where there is none that
+  // was not found before; advance does this for its own target.
+  std::optional<BranchStep> look_back(const BranchTarget& target);
   // From now on the other way.
   void turn() { direction_ = -direction_; }
 
@@ -90,7 +93,6 @@ class BranchFollower {
   std::optional<double> length_to(const BranchTarget& target, double from, double to) const;
   std::optional<double> length_onto(const BranchTarget& target) const;
   BranchRow row_across(const BranchPoint& point) const;
-  std::optional<BranchStep> solve_between(const BranchTarget& target);
   std::optional<BranchStep> try_step(const BranchTarget& target);
   void accept(BranchPoint point);
 
@@ -100,8 +102,8 @@ class BranchFollower {
   double direction_ = 1.0;
   double step_;
   BranchPoint found_;
-  std::optional<BranchTarget> searched_;  // between the last two nodes, up to this length
-  double searched_to_ = 0.0;
+  // What was sought between the last two nodes, and up to which length.
+  std::vector<std::pair<BranchTarget, double>> searched_;
   std::string why_;
 };
 
