@@ -40,10 +40,6 @@ std::vector<double> packed(const AeroelasticState& state) {
 
 }  // namespace
 
-double highest_harmonic_share(const StructureModel& model, const AeroelasticState& state) {
-  return harmonic_energies(model, time_of(state), state.y).back() / fluctuating_energy(model, state.y);
-}
-
 CycleBranch::CycleBranch(Context& context, const StructureModel& model, CycleSolver& solver, CycleStart start,
                          double largest_energy)
     : context_(context),
@@ -90,7 +86,7 @@ SolveStatus CycleBranch::begin(double energy) {
 bool CycleBranch::needs_harmonic(const AeroelasticState& state) const {
   const LcoSettings& lco = context_.settings.lco;
   return lco.harmonic_share && harmonics_ < lco.max_harmonics &&
-         highest_harmonic_share(model_, state) > *lco.harmonic_share;
+         highest_harmonic_share(model_, time_of(state), state.y) > *lco.harmonic_share;
 }
 
 void CycleBranch::add_harmonic() {
@@ -121,7 +117,8 @@ Correction CycleBranch::correct(BranchPoint& point, const BranchRow& row) {
     if (solution_.status != SolveStatus::converged) return correction;
     if (!needs_harmonic(solution_.state)) break;
     context_.log.line("harmonic {} carries {:.1e} of the energy: {} harmonics from here on", harmonics_,
-                      highest_harmonic_share(model_, solution_.state), harmonics_ + 1);
+                      highest_harmonic_share(model_, time_of(solution_.state), solution_.state.y),
+                      harmonics_ + 1);
     add_harmonic();
     start_.state = with_harmonic(solution_.state);
   }

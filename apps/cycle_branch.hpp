@@ -52,7 +52,4 @@ class CycleBranch {
   std::unique_ptr<BranchFollower> follower_;
 };
 
-// Share of the fluctuating energy that the highest harmonic carries.
-double highest_harmonic_share(const StructureModel& model, const AeroelasticState& state);
-
 }  // namespace wingbeat

@@ -23,8 +23,7 @@ nlohmann::ordered_json cycle_entry(const CaseSettings& settings, const Structure
   entry["pitch_amplitude_deg"] = std::abs(u[pitch_mode]) * 180.0 / std::numbers::pi;
   entry["plunge_amplitude"] = std::abs(u[plunge_mode]);
   entry["harmonics"] = time.harmonics();
-  entry["highest_harmonic_share"] =
-      harmonic_energies(model, time, state.y).back() / fluctuating_energy(model, state.y);
+  entry["highest_harmonic_share"] = highest_harmonic_share(model, time, state.y);
   if (solution.tangent) {
     entry["velocity_slope"] = solution.tangent->velocity_slope;
     entry["frequency_slope"] = solution.tangent->frequency_slope;
@@ -59,8 +58,9 @@ void print_cycle(Context& context, const nlohmann::ordered_json& entry) {
     log.line("{:<34}{:+.4f}: {}", "dV/dE_0 along the branch", number("velocity_slope"),
              entry["supercritical"].get<bool>() ? "greater cycles need greater speed (supercritical)"
                                                 : "greater cycles at lower speed (subcritical)");
-  log.line("{:<34}{}, the highest with {:.1e} of the energy", "harmonics", count("harmonics"),
-           number("highest_harmonic_share"));
+  if (count("harmonics") > 1)
+    log.line("{:<34}{}, the highest with {:.1e} of the energy", "harmonics", count("harmonics"),
+             number("highest_harmonic_share"));
   log.line("{:<34}flow {:.1e}, structure {:.1e}, phase {:.1e}, energy {:.1e}", "residuals", residual("flow"),
            residual("structure"), residual("phase"), residual("energy"));
   if (count("flow_cycles") > 0)

@@ -74,4 +74,9 @@ std::vector<double> harmonic_energies(const StructureModel& model, const TimeSpe
   return energies;
 }
 
+double highest_harmonic_share(const StructureModel& model, const TimeSpectral& time,
+                              std::span<const double> y) {
+  return harmonic_energies(model, time, y).back() / fluctuating_energy(model, y);
+}
+
 }  // namespace wingbeat

@@ -23,5 +23,8 @@ void add_fluctuating_energy_gradient(const StructureModel& model, std::span<cons
 // The share of every harmonic 0..N_H in E_avg (Parseval): their sum is E_avg, without the first E_fl.
 std::vector<double> harmonic_energies(const StructureModel& model, const TimeSpectral& time,
                                       std::span<const double> y);
+// Share of E_fl that the highest harmonic carries.
+double highest_harmonic_share(const StructureModel& model, const TimeSpectral& time,
+                              std::span<const double> y);
 
 }  // namespace wingbeat

@@ -63,6 +63,16 @@ class MatchedModes {
     return point;
   }
 
+  // Different solutions near the predicted ones, with the aerodynamics of the first one's frequency.
+  std::vector<Complex> distinct(double velocity, const std::vector<Complex>& predicted) const {
+    const Eigen::VectorXcd p = spectrum_(velocity, predicted.front().imag() / (2.0 * velocity)).p;
+    const std::vector<Complex> candidates(p.begin(), p.end());
+    std::vector<Complex> found;
+    for (const int j : match_branches(predicted, candidates).candidate)
+      found.push_back(candidates[static_cast<std::size_t>(j)]);
+    return found;
+  }
+
  private:
   const StructureModel& model_;
   const SpectrumAt& spectrum_;
@@ -77,25 +87,44 @@ struct Station {
   std::vector<Complex> slope;
 };
 
-// The next station, or the longest shorter one whose branches follow clearly from `here`.
+// All modes at a speed, sought from where they were predicted.
+Station station_at(const MatchedModes& modes, const Station& here, double velocity,
+                   const std::vector<Complex>& predicted) {
+  Station next{velocity, {}, {}};
+  for (std::size_t i = 0; i < predicted.size(); ++i) {
+    next.points.push_back(modes.at(velocity, predicted[i]));
+    next.slope.push_back((next.points[i].p - here.points[i].p) / (velocity - here.velocity));
+  }
+  return next;
+}
+
+bool follows_clearly(const Station& station, const std::vector<Complex>& predicted) {
+  std::vector<Complex> solved;
+  for (const PkPoint& point : station.points) solved.push_back(point.p);
+  const BranchMatch match = match_branches(predicted, solved);
+  for (std::size_t i = 0; i < solved.size(); ++i)
+    if (match.candidate[i] != static_cast<int>(i)) return false;
+  return match.is_clear;
+}
+
+// The next station, or the longest shorter one whose branches follow clearly from `here`. Modes that coincide
+// never do: they are then started from different solutions at the target.
 Station advance(const MatchedModes& modes, const Station& here, double target) {
   constexpr int max_halvings = 20;
-  double step = target - here.velocity;
-  for (int halving = 0;; ++halving, step *= 0.5) {
-    Station next{halving == 0 ? target : here.velocity + step, {}, {}};
-    std::vector<Complex> predicted, solved;
-    for (std::size_t i = 0; i < here.points.size(); ++i) {
+  std::vector<Complex> predicted;
+  const auto predict = [&](double step) {
+    predicted.clear();
+    for (std::size_t i = 0; i < here.points.size(); ++i)
       predicted.push_back(here.points[i].p + step * here.slope[i]);
-      next.points.push_back(modes.at(next.velocity, predicted.back()));
-      solved.push_back(next.points.back().p);
-      next.slope.push_back((solved.back() - here.points[i].p) / step);
-    }
-    const BranchMatch match = match_branches(predicted, solved);
-    bool is_clear = match.is_clear;
-    for (std::size_t i = 0; i < solved.size(); ++i)
-      is_clear = is_clear && match.candidate[i] == static_cast<int>(i);
-    if (is_clear || halving == max_halvings) return next;
+  };
+  double step = target - here.velocity;
+  for (int halving = 0; halving <= max_halvings; ++halving, step *= 0.5) {
+    predict(step);
+    Station next = station_at(modes, here, halving == 0 ? target : here.velocity + step, predicted);
+    if (follows_clearly(next, predicted)) return next;
   }
+  predict(target - here.velocity);
+  return station_at(modes, here, target, modes.distinct(target, predicted));
 }
 
 // A mode without aerodynamic damping has Re p = 0 but for round-off: that is no crossing.

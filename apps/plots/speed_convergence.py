@@ -72,6 +72,6 @@ def draw(folder):
     right.set(xlabel="iteration", ylabel=r"$|V/V_{\mathrm{last}} - 1|$")
     for axes in (left, right):
         axes.xaxis.set_major_locator(plt.MaxNLocator(integer=True))
-    left.legend(loc="best")
+    right.legend(*left.get_legend_handles_labels(), loc="upper left", bbox_to_anchor=(1.0, 1.0))
     figure.suptitle("Convergence of the speed", fontsize=11)
     return figure

@@ -153,7 +153,8 @@ TEST_F(BadInput, MoreMeshesThanTheCellsGive) {
 
 TEST_F(BadInput, LimitCycleOfNoEnergyOrSpeed) {
   const std::string message =
-      "lco.energies: no cycle is asked for; give this key (a list of E_0) or lco.reduced_velocity";
+      "lco.energies: no cycle is asked for; give this key (a list of E_0), lco.energy_range or "
+      "lco.reduced_velocity";
   expect_refused(run_case("lco", paper_section, 2), "out", "case.toml: " + message);
   expect_refused(run_case("lco", paper_section + "[lco]\nenergies = []\n"), "out", message);
   expect_refused(run_case("lco", paper_section + "[lco]\nenergies = [1e-6, -1.0]\n"), "out",

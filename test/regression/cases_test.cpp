@@ -24,7 +24,8 @@ class Cases : public Program {
                              std::vector<std::string> options = {"time.harmonics=1"}) {
     options.push_back("lco.energies=" + energies);
     std::vector<double> found;
-    for (const auto& cycle : solve("lco", name, options)["lco"]) found.push_back(cycle["reduced_velocity"]);
+    const nlohmann::json solved = solve("lco", name, options);
+    for (const auto& cycle : solved["lco"]) found.push_back(cycle["reduced_velocity"]);
     return found;
   }
   int runs_ = 0;
@@ -78,15 +79,15 @@ TEST_F(Cases, TheCubicPlungeSpringTurnsARisingBranch) {
 
 // Far outside the gap the section forgets it: the speed tends to that without freeplay.
 TEST_F(Cases, FreeplayInPitchLowersTheSpeedOfSmallCycles) {
-  const auto v = speeds("naca64a010-pitch-freeplay", "[1e-2,4e-3]");
-  const auto without = speeds("naca64a010-pitch-freeplay", "[1e-2,4e-3]",
+  const auto v = speeds("naca64a010-pitch-freeplay", "[4e-3,1e-2]");
+  const auto without = speeds("naca64a010-pitch-freeplay", "[4e-3,1e-2]",
                               {"time.harmonics=1", "structure.pitch_freeplay_deg=0"});
   ASSERT_EQ(v.size(), 2u);
   ASSERT_EQ(without.size(), 2u);
-  EXPECT_LT(v[1] / without[1], v[0] / without[0]);
-  EXPECT_LT(v[0] / without[0], 0.9);
-  EXPECT_NEAR(v[0], 2.599635, kept);
-  EXPECT_NEAR(v[1], 2.320108, kept);
+  EXPECT_LT(v[0] / without[0], v[1] / without[1]);
+  EXPECT_LT(v[1] / without[1], 0.9);
+  EXPECT_NEAR(v[0], 2.320108, kept);
+  EXPECT_NEAR(v[1], 2.599635, kept);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <complex>
 
@@ -86,6 +87,26 @@ TEST_P(PkModes, AreTheEigenvaluesUnderConstantLoads) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OfModels, PkModes, ::testing::Values(3, 6));
+
+// Modes of one frequency, which loads then part: one falls until it diverges, the other rises.
+TEST(Pk, TellsModesApartThatCoincideAtRest) {
+  ModalSettings settings;
+  settings.modes = {"bending", "torsion"};
+  settings.mass = {1.0, 0.0, 0.0, 2.0};
+  settings.stiffness = {0.25, 0.0, 0.0, 0.5};
+  settings.load_factor = 0.25;
+  const Eigen::MatrixXcd q = Eigen::Vector2cd(-0.1, 0.5).asDiagonal();
+  const std::vector<double> speeds = {0.5, 1.0, 1.5};
+  const PkResult result = pk(
+      structure_model(settings), [&](double) { return q; }, 0.0, 100.0, speeds);
+  for (std::size_t s = 0; s < speeds.size(); ++s) {
+    const double load = 0.25 * speeds[s] * speeds[s];
+    std::vector<double> found = {result.branches[0][s].frequency(), result.branches[1][s].frequency()};
+    std::sort(found.begin(), found.end());
+    EXPECT_NEAR(found[0], std::sqrt((0.5 - 0.5 * load) / 2.0), 1e-12);
+    EXPECT_NEAR(found[1], std::sqrt(0.25 + 0.1 * load), 1e-12);
+  }
+}
 
 TEST(ModalSettings, FillTheMatricesRowByRow) {
   ModalSettings settings = modes_of(2);
