@@ -57,9 +57,6 @@ CsvTable::Cell cell(const ordered_json& entry, const std::string& name) {
   return entry[name].get<double>();
 }
 
-// The same number but for what tolerances leave open.
-bool is_near(double a, double b) { return std::abs(a / b - 1.0) < 1e-8; }
-
 // Values of the keys that decide over a cycle.
 ordered_json physics(const CaseSettings& settings) {
   CaseSettings copy = settings;
@@ -88,6 +85,8 @@ std::vector<ordered_json> lines_of(const std::string& text, const std::string& p
 
 CycleRecord::CycleRecord(Context& context) : context_(context), case_(physics(context.settings)) {}
 
+bool CycleRecord::is_same(double a, double b) { return std::abs(a / b - 1.0) < 1e-8; }
+
 void CycleRecord::resume() {
   if (!context_.restart) return;
   const auto path = context_.restart->parent_path() / "lco.jsonl";
@@ -107,6 +106,8 @@ void CycleRecord::resume() {
         "restart from a solution.cgns in another folder",
         path.string(), fmt::join(changed, ", ")));
   lines_.assign(lines.begin() + 1, lines.end());
+  std::erase_if(lines_, [](const ordered_json& line) { return line["entry"]["status"] != "converged"; });
+  for (std::size_t i = 0; i < lines_.size(); ++i) lines_[i]["point"] = i + 1;
   context_.log.line("{} cycles taken over from {}", lines_.size(), path.string());
   write();
 }
@@ -129,19 +130,25 @@ ordered_json CycleRecord::asked() const {
 bool CycleRecord::has_energy(double energy) const {
   return std::ranges::any_of(lines_, [energy](const ordered_json& line) {
     return line["asked"].get<bool>() && line["entry"]["status"] == "converged" &&
-           is_near(line["entry"]["energy"].get<double>(), energy);
+           is_same(line["entry"]["energy"].get<double>(), energy);
   });
 }
 
-bool CycleRecord::holds(const CycleSolution& solution) const {
+bool CycleRecord::holds(const CycleSolution& solution, bool is_asked) {
   const double v = section_kinematics(context_.settings).reduced_velocity(solution.state.r);
-  return std::ranges::any_of(lines_, [&](const ordered_json& line) {
+  const auto held = std::ranges::find_if(lines_, [&](const ordered_json& line) {
     const ordered_json& entry = line["entry"];
     return solution.status == SolveStatus::converged && entry["status"] == "converged" &&
            entry["harmonics"] == time_of(solution.state).harmonics() &&
-           is_near(entry["reduced_velocity"].get<double>(), v) &&
-           is_near(entry["frequency_ratio"].get<double>(), solution.state.omega);
+           is_same(entry["reduced_velocity"].get<double>(), v) &&
+           is_same(entry["frequency_ratio"].get<double>(), solution.state.omega);
   });
+  if (held == lines_.end()) return false;
+  if (is_asked && !(*held)["asked"].get<bool>()) {
+    (*held)["asked"] = true;
+    write();
+  }
+  return true;
 }
 
 void CycleRecord::write() const {

@@ -13,8 +13,12 @@ class CycleRecord {
  public:
   explicit CycleRecord(Context& context);
 
+  // The same number but for what tolerances leave open.
+  static bool is_same(double a, double b);
+
   // Takes over the cycles that lie in lco.jsonl beside the restart file, if there are any. Throws
-  // InputError where they are of another case, naming the keys that differ.
+  // InputError where they are of another case, naming the keys that differ. What did not converge is left
+  // out.
   void resume();
   // `entry`: as result.json holds it. Asked: a cycle of the case's list, not a step between.
   void add(nlohmann::ordered_json entry, const CycleSolution& solution, bool is_asked);
@@ -23,8 +27,8 @@ class CycleRecord {
   nlohmann::ordered_json asked() const;
   // A cycle of that energy was asked for and found.
   bool has_energy(double energy) const;
-  // The cycle is one of those found already, a restart's own.
-  bool holds(const CycleSolution& solution) const;
+  // Whether the cycle is one of those found already, a restart's own. Asked for now, it counts as such.
+  bool holds(const CycleSolution& solution, bool is_asked);
 
  private:
   void write() const;

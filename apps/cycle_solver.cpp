@@ -161,7 +161,12 @@ CycleSolution CycleSolver::solve_coupled(const std::string& stage, const CycleSt
     const auto slope = context_.timer.measure("branch slope");
     GmresOptions gmres = options.gmres;
     gmres.relative_tolerance = slope_tolerance(condition.energy.energy);
-    solution.tangent = cycle_tangent<2>(context_.comm, problem, model_, kinematics, u, gmres);
+    const CycleTangent tangent = cycle_tangent<2>(context_.comm, problem, model_, kinematics, u, gmres);
+    if (tangent.status == GmresStatus::converged)
+      solution.tangent = tangent;
+    else
+      context_.log.line("the slope of the branch was not found: {} Krylov iterations did not do",
+                        tangent.linear_iterations);
   }
   return solution;
 }

@@ -28,7 +28,7 @@ struct LcoRun {
     const auto part = context.timer.measure("output");
     write_solution_files(context, level, solution.state);
     const auto entry = cycle_entry(context.settings, model, solution);
-    record.add(entry, solution, is_asked);
+    if (!record.holds(solution, is_asked)) record.add(entry, solution, is_asked);
     context.result.findings["lco"] = record.asked();
     if (is_asked) print_cycle(context, entry);
   }
@@ -38,7 +38,8 @@ struct LcoRun {
     return status;
   }
   SolveStatus end_well() const {
-    return end(SolveStatus::converged, fmt::format("{} limit cycles", record.asked().size()));
+    const std::size_t count = record.asked().size();
+    return end(SolveStatus::converged, fmt::format("{} limit cycle{}", count, count == 1 ? "" : "s"));
   }
 };
 
@@ -101,9 +102,7 @@ class BranchWalk {
     return step == BranchStep::failed || step == BranchStep::interrupted;
   }
   bool seeks_speed() const { return lco().reduced_velocity && (!is_speed_met_ || lco().all_crossings); }
-  void save(bool is_asked) {
-    if (!run_.record.holds(branch_.solution())) run_.save(branch_.solution(), is_asked);
-  }
+  void save(bool is_asked) { run_.save(branch_.solution(), is_asked); }
 
   std::optional<SolveStatus> meet_speed() {
     while (seeks_speed()) {
@@ -129,8 +128,9 @@ SolveStatus follow_branch(const LcoRun& run, CycleSolver& solver, const CycleSta
   for (double energy : energies) largest = std::max(largest, energy);
   CycleBranch branch(run.context, run.model, solver, start, largest);
   const SolveStatus begun = branch.begin(first_energy);
-  const bool first_is_asked = !energies.empty() && energies.front() == first_energy;
-  if (!run.record.holds(branch.solution())) run.save(branch.solution(), first_is_asked);
+  run.save(branch.solution(), std::ranges::any_of(energies, [&](double energy) {
+             return CycleRecord::is_same(energy, first_energy);
+           }));
   if (begun != SolveStatus::converged)
     return run.end(begun, cycle_advice(run.context.settings, branch.solution()));
 
@@ -188,6 +188,7 @@ SolveStatus run_lco(Context& context) {
   const StructureModel model = structure_model(typical_section(settings.structure));
   CycleRecord record(context);
   record.resume();
+  context.result.findings["lco"] = record.asked();
   FlowLevels<2> levels = make_levels<2>(context, make_plane_mesh(settings.mesh));
   FlowLevel<2>& level = *levels.back();
   History history(context);

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -18,6 +19,7 @@ namespace wingbeat {
 namespace {
 
 constexpr double least_energy = 1e-6;  // of a start that the case does not describe
+constexpr double search_share = 0.01;  // of march.small_energy, the most that a march of a search starts with
 constexpr int max_marches = 15;
 
 // What a march begins with.
@@ -45,6 +47,9 @@ class MarchCase {
   MarchStart from_stored(StoredSolution stored);
   RestState rest_at(double reduced_velocity);
   TimeLevels disturbed(const RestState& rest, double reduced_velocity) const;
+  double energy_of(const TimeLevels& levels, const RestState& rest) const;
+  std::optional<GrowthAtSpeed> growth_of(const MarchRun& run, const TimeLevels& start,
+                                         const RestState& rest) const;
   TimeLevels shrunk(const TimeLevels& levels, const RestState& from, const RestState& to,
                     double reduced_velocity) const;
   MarchCriteria criteria() const;
@@ -95,12 +100,32 @@ TimeLevels MarchCase::disturbed(const RestState& rest, double reduced_velocity) 
   return {{rest.w}, {push}, march.time_step(), reduced_velocity, rest.y};
 }
 
-// The motion that a march ended with, about rest at another speed and as small as a start is.
+double MarchCase::energy_of(const TimeLevels& levels, const RestState& rest) const {
+  std::vector<double> departure = levels.y.front();
+  for (std::size_t j = 0; j < departure.size(); ++j) departure[j] -= rest.y[j];
+  return average_energy(model_, departure);
+}
+
+// Of motion that outgrew march.small_energy before its rate was known, the energy tells that it grows, and
+// the rate to no better than itself. Nothing where neither is known.
+std::optional<GrowthAtSpeed> MarchCase::growth_of(const MarchRun& run, const TimeLevels& start,
+                                                  const RestState& rest) const {
+  const double v = start.reduced_velocity, energy = energy_of(run.levels, rest);
+  const auto& growth = run.summary.assessment.growth;
+  const bool is_large = energy > settings_.march.small_energy;
+  if (growth && (!is_large || growth->rate > growth->rate_error))
+    return GrowthAtSpeed{v, growth->rate, growth->rate_error, growth->frequency, growth->frequency_error};
+  if (!is_large) return std::nullopt;
+  const double time = static_cast<double>(run.summary.time_steps) * start.dtau;
+  const double rate = 0.5 * std::log(energy / energy_of(start, rest)) / time;
+  return GrowthAtSpeed{v, rate, rate, 1.0, 1.0};
+}
+
+// The motion of some levels, about rest at another speed and as small as a start is.
 TimeLevels MarchCase::shrunk(const TimeLevels& levels, const RestState& from, const RestState& to,
                              double reduced_velocity) const {
-  std::vector<double> departure = levels.y.front();
-  for (std::size_t j = 0; j < departure.size(); ++j) departure[j] -= from.y[j];
-  const double factor = std::sqrt(least_energy / average_energy(model_, departure));
+  const double energy = std::min(least_energy, search_share * settings_.march.small_energy);
+  const double factor = std::sqrt(energy / energy_of(levels, from));
   TimeLevels result = levels;
   result.reduced_velocity = reduced_velocity;
   result.rest_y = to.y;
@@ -172,8 +197,8 @@ void MarchCase::finish(const MarchRun& run) {
 SolveStatus MarchCase::find_flutter(Marcher& marcher, const MarchStart& start) {
   const double tolerance = settings_.march.velocity_tolerance;
   GrowthBracket search(start.levels.reduced_velocity, {.tolerance = tolerance});
-  TimeLevels levels = start.levels;
   RestState rest = start.rest;
+  TimeLevels levels = shrunk(start.levels, rest, rest, start.levels.reduced_velocity);
   MarchRun run;
   auto marches = nlohmann::ordered_json::array();
   while (!search.is_found() && !search.is_exhausted()) {
@@ -187,19 +212,23 @@ SolveStatus MarchCase::find_flutter(Marcher& marcher, const MarchStart& start) {
     MarchCriteria wanted = criteria();
     wanted.rate_tolerance = search.rate_tolerance();
     wanted.energy_tolerance = 0.0;  // small motion only
+    wanted.ends_when_large = true;
     run = marcher.run(levels, rest, wanted, "verdict");
     context_.result.findings["march"] = march_entry(settings_, run.summary);
     marches.push_back(context_.result.findings["march"]);
     context_.result.findings["marches"] = marches;
     finish(run);
-    const auto& growth = run.summary.assessment.growth;
-    if (run.status == SolveStatus::interrupted || run.status == SolveStatus::diverged || !growth) {
-      context_.result.message = fmt::format("the march at V = {:.6f} ended without a growth rate: {}",
-                                            levels.reduced_velocity, to_string(run.status));
+    const bool is_marched =
+        run.status == SolveStatus::converged || run.status == SolveStatus::iteration_limit;
+    const auto point = is_marched ? growth_of(run, levels, rest) : std::nullopt;
+    if (!point) {
+      context_.result.message = fmt::format(
+          "the march at V = {:.6f} ended without a growth rate: {}; take more march.steps_per_period, allow "
+          "longer march.periods, or start nearer",
+          levels.reduced_velocity, to_string(run.status));
       return run.status == SolveStatus::converged ? SolveStatus::stalled : run.status;
     }
-    search.add({levels.reduced_velocity, growth->rate, growth->rate_error, growth->frequency,
-                growth->frequency_error});
+    search.add(*point);
     const double next = search.next();
     RestState there = rest_at(next);
     levels = shrunk(run.levels, rest, there, next);

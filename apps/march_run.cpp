@@ -130,16 +130,18 @@ SolveStatus Marcher::march_to_verdict(March& march, const MarchCriteria& criteri
     const SolveStatus status = advance(march);
     if (status != SolveStatus::converged) return status;
     flow_iterations += march.flow.iterations();
-    if (march.steps % steps_in(assessed_every) == 0 && march.steps >= steps_in(assessed_from))
+    const double energy = energy_about(model_, march.structure->y(), march.rest.y);
+    const bool is_over = criteria.ends_when_large && energy > criteria.small_energy;
+    if (is_over || (march.steps % steps_in(assessed_every) == 0 && march.steps >= steps_in(assessed_from)))
       found = assess(model_, {march.record, dtau}, criteria);
+    if (is_over) break;
     const double fraction = static_cast<double>(march.steps) / static_cast<double>(most);
     if (march.steps % line != 0) {
       progress.show(fraction);
       continue;
     }
     const auto& growth = found.growth;
-    progress.row({fmt::format("{}", march.steps / line),
-                  fmt::format("{:.3e}", energy_about(model_, march.structure->y(), march.rest.y)),
+    progress.row({fmt::format("{}", march.steps / line), fmt::format("{:.3e}", energy),
                   growth ? fmt::format("{:+.3e}", growth->rate) : "",
                   growth ? fmt::format("{:.0e}", growth->rate_error) : "",
                   fmt::format("{:.1f}", static_cast<double>(flow_iterations) / static_cast<double>(line))},

@@ -1,7 +1,7 @@
 #!/bin/sh
 # All benchmarks, one after another, into one table of text.
 #   benchmarks/run.sh [BUILD_FOLDER] [TABLE]  (default build/release and BUILD_FOLDER/benchmarks.txt)
-# Takes a quarter of an hour and both cores; meaningful only on a machine that does nothing else.
+# Takes more than half an hour and both cores; meaningful only on a machine that does nothing else.
 set -eu
 cd "$(dirname "$0")/.."
 build=${1:-build/release}
@@ -14,6 +14,8 @@ table=${2:-$build/benchmarks.txt}
   echo; benchmarks/steady.sh "$build"
   echo; benchmarks/cycles.sh "$build"
   echo; benchmarks/flutter.sh "$build"
+  echo; benchmarks/lco.sh "$build"
+  echo; benchmarks/march.sh "$build"
   echo; python3 benchmarks/scaling_model.py "$build/wingbeat"
 } >"$table.part"
 mv "$table.part" "$table"

@@ -2,10 +2,10 @@
 """Runs a verb of wingbeat several times and prints where the time went.
 
     time_verb.py WINGBEAT VERB CASE [--ranks N ...] [--rounds R] [--set KEY=VALUE ...]
-                                    [--variant NAME KEY=VALUE ...] ...
+                                    [--variant NAME KEY=VALUE ...] ... [--other NAME VERB KEY=VALUE ...] ...
 
-One column for each number of ranks or variant; the first is the one that the others are compared
-with. Wall seconds are those of result.json, of the quickest of R rounds; the rounds go through all
+One column for each number of ranks, variant or other verb (with its flags, in one word); the first
+is the one that the others are compared with. Wall seconds are those of result.json, of the quickest of R rounds; the rounds go through all
 columns in turn, so that other load on the machine meets them alike. CPU seconds, of all processes,
 are the least of the rounds: they suffer less from other load. Peak memory is that of the largest
 process.
@@ -30,7 +30,7 @@ def run(wingbeat, verb, case, ranks, overrides):
     """Wall seconds by part, CPU seconds, and peak memory of the largest process in bytes."""
     with tempfile.TemporaryDirectory() as folder:
         command = ["mpirun", "-n", str(ranks)] if ranks > 1 else []
-        command += [wingbeat, verb, case, *overrides, "--output", folder]
+        command += [wingbeat, *verb.split(), case, *overrides, "--output", folder]
         process = subprocess.Popen(
             command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=os.environ | ENVIRONMENT
         )
@@ -54,16 +54,21 @@ def main():
     parser.add_argument("--set", nargs="+", default=[], metavar="KEY=VALUE", help="overrides of every column")
     parser.add_argument("--variant", nargs="+", action="append", default=[], metavar="WORD",
                         help="name of a further column and its overrides")
+    parser.add_argument("--other", nargs="+", action="append", default=[], metavar="WORD",
+                        help="name of a further column, its verb and its overrides")
     options = parser.parse_args()
 
-    columns = {f"{n} rank{'s' if n > 1 else ''}": (n, options.set) for n in options.ranks}
+    verb = options.verb
+    columns = {f"{n} rank{'s' if n > 1 else ''}": (n, verb, options.set) for n in options.ranks}
     for name, *overrides in options.variant:
-        columns[name] = (options.ranks[0], options.set + overrides)
+        columns[name] = (options.ranks[0], verb, options.set + overrides)
+    for name, other, *overrides in options.other:
+        columns[name] = (options.ranks[0], other, options.set + overrides)
 
     best, least_cpu = {}, {}
     for _ in range(options.rounds):
-        for name, (ranks, overrides) in columns.items():
-            seconds, cpu, memory = run(options.wingbeat, options.verb, options.case, ranks, overrides)
+        for name, (ranks, verb, overrides) in columns.items():
+            seconds, cpu, memory = run(options.wingbeat, verb, options.case, ranks, overrides)
             least_cpu[name] = min(cpu, least_cpu.get(name, cpu))
             if name not in best or seconds["total"] < best[name][0]["total"]:
                 best[name] = seconds, memory

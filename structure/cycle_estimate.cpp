@@ -118,6 +118,13 @@ std::optional<CycleEstimate> estimate_cycle(const std::vector<MarchedPeriod>& pe
   result.energy = last.back().energy;
   result.energy_limit = limit;
   result.energy_error = std::abs(limit - result.energy);
+  // A transient that dies out makes the line of all too steep. The last two growths see least of it, and the
+  // line of growths to come is as much flatter again.
+  const double change = energy[count - 1] - energy[count - 2], fall = growth[count - 2] - growth[count - 1];
+  if (change * fall > 0.0) {
+    const double by_last = std::abs(energy[count - 1] + growth[count - 1] * change / fall - result.energy);
+    if (by_last > result.energy_error) result.energy_error = by_last * by_last / result.energy_error;
+  }
   result.frequency = omega;
   // The frequency goes to its limit as the energy does.
   result.frequency_error =

@@ -33,7 +33,7 @@ double phase_at_begin(const StructureModel& model, const MotionRecord& record, c
 struct CycleEstimate {
   double energy = 0.0;           // of the last period
   double energy_limit = 0.0;     // of the cycle approached
-  double energy_error = 0.0;     // their distance
+  double energy_error = 0.0;     // their distance, more where a transient is seen
   double frequency = 0.0;        // of the last period
   double frequency_error = 0.0;  // its change over the last periods
 };

@@ -52,15 +52,21 @@ void GrowthBracket::add(const GrowthAtSpeed& point) {
   points_.push_back(point);
 }
 
-GrowthAtSpeed GrowthBracket::nearest() const {
+std::optional<std::pair<GrowthAtSpeed, GrowthAtSpeed>> GrowthBracket::enclosing() const {
   std::vector<GrowthAtSpeed> by_speed = points_;
   std::ranges::stable_sort(by_speed, {}, &GrowthAtSpeed::reduced_velocity);
-  const auto grows = [](const GrowthAtSpeed& p) { return p.rate > 0.0; };
   const auto pair = std::ranges::adjacent_find(
       by_speed,
-      [&](const GrowthAtSpeed& low, const GrowthAtSpeed& high) { return !grows(low) && grows(high); });
-  if (pair != by_speed.end()) return std::abs(pair[0].rate) <= std::abs(pair[1].rate) ? pair[0] : pair[1];
-  return grows(by_speed.front()) ? by_speed.front() : by_speed.back();
+      [](const GrowthAtSpeed& low, const GrowthAtSpeed& high) { return low.rate <= 0.0 && high.rate > 0.0; });
+  if (pair == by_speed.end()) return std::nullopt;
+  return std::pair{pair[0], pair[1]};
+}
+
+GrowthAtSpeed GrowthBracket::nearest() const {
+  if (const auto pair = enclosing())
+    return std::abs(pair->first.rate) <= std::abs(pair->second.rate) ? pair->first : pair->second;
+  const auto [low, high] = std::ranges::minmax(points_, {}, &GrowthAtSpeed::reduced_velocity);
+  return low.rate > 0.0 ? low : high;
 }
 
 std::optional<GrowthCrossing> GrowthBracket::interpolated() const {
@@ -102,8 +108,12 @@ double GrowthBracket::next() const {
   const auto [low, high] = std::ranges::minmax(points_, {}, &GrowthAtSpeed::reduced_velocity);
   const double lowest = low.reduced_velocity, highest = high.reduced_velocity;
   const auto line = interpolated();
-  if (changes_sign)
-    return line ? std::clamp(line->reduced_velocity, lowest, highest) : 0.5 * (lowest + highest);
+  if (const auto pair = enclosing()) {
+    const double slow = pair->first.reduced_velocity, fast = pair->second.reduced_velocity;
+    const bool is_between = line && line->reduced_velocity >= slow && line->reduced_velocity <= fast;
+    return is_between ? line->reduced_velocity : 0.5 * (slow + fast);
+  }
+  if (changes_sign) return 0.5 * (lowest + highest);
   const double from = grows ? lowest : highest;
   const double least = options_.first_step * first_speed_;
   // Beyond the crossing expected by a fifth, so that it is enclosed.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace wingbeat {
@@ -50,6 +51,8 @@ class GrowthBracket {
   const std::vector<GrowthAtSpeed>& points() const { return points_; }
 
  private:
+  // Two neighbouring speeds between which decay turns into growth, the slowest such.
+  std::optional<std::pair<GrowthAtSpeed, GrowthAtSpeed>> enclosing() const;
   // The point nearest to the boundary: the slower of two neighbouring speeds between which decay turns into
   // growth, else the last before growth or decay sets in.
   GrowthAtSpeed nearest() const;

@@ -41,6 +41,9 @@ void MarchSettings::describe(SettingSection& keys) {
   keys.add("snapshots", &snapshots,
            {.help = "phases of one more period at which surface.csv holds the pressure; 0: none",
             .range = between(0, 1000)});
+  keys.add_rule(
+      "snapshots", [this] { return snapshots <= steps_per_period; },
+      "must not exceed march.steps_per_period: each takes a step of its own");
   keys.add("initial_plunge", &initial_plunge,
            {.help = "plunge beyond that of rest at the start", .unit = "semichords"});
   keys.add("initial_pitch_deg", &initial_pitch_deg,

@@ -17,6 +17,7 @@ struct MarchCriteria {
   std::optional<double> rate_tolerance;  // the same, absolute; either does
   double energy_tolerance = 1e-3;        // on the distance to a limit cycle's energy, relative
   double small_energy = 1e-4;            // energy up to which growth is that of small motion
+  bool ends_when_large = false;          // motion that has outgrown small_energy has nothing more to show
 };
 
 // What a march has shown so far.

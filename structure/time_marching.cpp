@@ -26,8 +26,6 @@ void keep_newest(std::vector<Level>& levels, Level newest, std::size_t count) {
   if (levels.size() > count) levels.resize(count);
 }
 
-bool is_finite(const Eigen::VectorXd& values) { return values.allFinite(); }
-
 }  // namespace
 
 TimeMarching::TimeMarching(StructureModel model, double load, double dtau, UnsteadyLoads& flow,
@@ -70,7 +68,7 @@ TimeStepResult TimeMarching::step() {
     for (std::size_t k = 0; k < forces_.size(); ++k) f += weights[k] * forces_[k];
     const Eigen::MatrixXd learnt = response_;
     response_.setZero();
-    y = implicit_step(past, formula.c[0], f, y);
+    y = implicit_step(past, formula.c[0], f, y).value_or(y);
     response_ = learnt;
   }
 
@@ -88,13 +86,18 @@ TimeStepResult TimeMarching::step() {
     const double travel = norm(difference(y, history_.front()));
     const double least = options_.tolerance * travel;
     if (i > 1 && norm(dy) > least_lesson * least) learn_response(dy, f - last);
-    std::vector<double> next = implicit_step(past, formula.c[0], f, y);
-    dy = difference(next, y);
-    const double change = norm(dy);
-    if (!is_finite(f) || !std::isfinite(change)) {
+    if (!f.allFinite()) {
       result.status = SolveStatus::diverged;
       return result;
     }
+    std::optional<std::vector<double>> solved = implicit_step(past, formula.c[0], f, y);
+    if (!solved) {
+      result.status = SolveStatus::stalled;
+      return result;
+    }
+    std::vector<double> next = *std::move(solved);
+    dy = difference(next, y);
+    const double change = norm(dy);
     result.change = travel > 0.0 ? change / travel : change;
     if (change <= std::max(least, round_off * norm(next))) {
       flow_.accept();
@@ -109,15 +112,18 @@ TimeStepResult TimeMarching::step() {
   return result;
 }
 
-std::vector<double> TimeMarching::implicit_step(const std::vector<double>& past, double c0,
-                                                const Eigen::VectorXd& f,
-                                                const std::vector<double>& about) const {
+std::optional<std::vector<double>> TimeMarching::implicit_step(const std::vector<double>& past, double c0,
+                                                               const Eigen::VectorXd& f,
+                                                               const std::vector<double>& about) const {
   constexpr int max_newton = 20;
+  // Steps that round-off alone still makes are shorter than this, relative to y.
+  constexpr double settled = 1e-10;
   const auto width = static_cast<Eigen::Index>(about.size());
   const auto map = [width](const std::vector<double>& values) {
     return Eigen::Map<const Eigen::VectorXd>(values.data(), width);
   };
   std::vector<double> y = about, s(about.size());
+  bool is_settled = false;
   for (int i = 0; i < max_newton; ++i) {
     const Eigen::VectorXd now = f + response_ * (map(y) - map(about));
     structure_.residual(y, 0.0, load_, {now.data(), static_cast<std::size_t>(now.size())}, s);
@@ -131,8 +137,10 @@ std::vector<double> TimeMarching::implicit_step(const std::vector<double>& past,
     }
     const Eigen::VectorXd dy = -jacobian.partialPivLu().solve(rows);
     Eigen::Map<Eigen::VectorXd>(y.data(), width) += dy;
+    is_settled = dy.norm() <= settled * map(y).norm();
     if (dy.norm() <= round_off * map(y).norm()) break;
   }
+  if (!is_settled) return std::nullopt;
   return y;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -56,9 +57,11 @@ class TimeMarching {
   const std::vector<std::vector<double>>& history() const { return history_; }
 
  private:
-  // y with (c_0 y + past)/dtau + S(y, f + J (y - about)) = 0, by Newton from `about`.
-  std::vector<double> implicit_step(const std::vector<double>& past, double c0, const Eigen::VectorXd& f,
-                                    const std::vector<double>& about) const;
+  // y with (c_0 y + past)/dtau + S(y, f + J (y - about)) = 0, by Newton from `about`. Nothing where that does
+  // not converge.
+  std::optional<std::vector<double>> implicit_step(const std::vector<double>& past, double c0,
+                                                   const Eigen::VectorXd& f,
+                                                   const std::vector<double>& about) const;
   void learn_response(const std::vector<double>& dy, const Eigen::VectorXd& df);
   double norm(const std::vector<double>& dy) const;  // of states, by energy
 

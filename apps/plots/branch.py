@@ -63,9 +63,22 @@ def curve(energy, values, slopes):
     return at**2, value, slope
 
 
+def leads_to(speed, cycles):
+    """Whether the smallest cycle's slope gives the speed of no energy to half its distance; without one by the next."""
+    energy, velocity, slope = cycles["energy"], cycles["reduced_velocity"], cycles["slope"][0]
+    if not np.isfinite(slope):
+        if len(energy) == 1:
+            return True
+        slope = (velocity[1] - velocity[0]) / (energy[1] - energy[0])
+    return abs(velocity[0] - slope * energy[0] - speed) <= 0.5 * abs(velocity[0] - speed)
+
+
 def with_flutter(cycles, point):
-    """The branch begins at the flutter boundary, where the energy vanishes, unless a cycle is as good as there."""
+    """The branch begins at the flutter boundary, where the energy vanishes, unless a cycle is as good as there or
+    its slope leads elsewhere: the cycles of a section with freeplay do not begin there."""
     if point is None or len(cycles["energy"]) == 0 or cycles["energy"][0] <= NEGLIGIBLE * cycles["energy"][-1]:
+        return cycles
+    if not leads_to(point[0], cycles):
         return cycles
     first = {"energy": 0.0, "reduced_velocity": point[0], "frequency_ratio": point[1], "slope": np.nan, "asked": False}
     return {name: np.concatenate([[first[name]], values]) for name, values in cycles.items()}
@@ -122,6 +135,7 @@ def draw_branches(folders, looks, marches):
     panels[0].set(xlabel=r"reduced velocity $V = U/(c\,\omega_\alpha)$", ylabel=ENERGY)
     panels[1].set(xlabel=r"frequency $\omega/\omega_\alpha$")
     for axes in panels:
+        axes.locator_params(axis="x", nbins=6)
         axes.set_ylim(bottom=0.0)
         axes.margins(x=0.08)
         axes.ticklabel_format(axis="x", useOffset=False)

@@ -39,7 +39,7 @@ def plot_instance(axes, x, values, rows, colour, label, linewidth=1.4):
 
 
 def label_of(phase):
-    return rf"$\theta$ = {np.degrees(phase):.0f}°"
+    return rf"$\theta$ = {round(np.degrees(phase))}°"
 
 
 def add_key(figure, axes, instances):

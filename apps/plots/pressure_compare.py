@@ -63,14 +63,14 @@ def compare(folders):
         plot_instance(axes, table["x_body"], now, body, colour, f"time-spectral, {label}")
         plot_instance(axes, marched["x_body"], marched["cp"], rows, COLOURS["march"], "marched in time", 0.9)
         mark_sonic(axes, chosen[0], False)
-        axes.set_title(rf"$\theta$ = {np.degrees(phase):.0f}°", fontsize=9)
+        axes.set_title(rf"$\theta$ = {round(np.degrees(phase))}°", fontsize=9)
     panels[0].invert_yaxis()
     for axes in grid[:, 0]:
         axes.set_ylabel(r"$C_p$")
     for axes in panels[-grid.shape[1]:]:
         axes.set_xlabel("x / c")
     spare = grid.size > len(panels)
-    place, corner = (-1, "center") if spare else (0, "upper right")
+    place, corner = (-1, "center") if spare else (0, "lower center")
     grid.flat[place].legend(*panels[0].get_legend_handles_labels(), loc=corner)
     energies = cycle_of(chosen[0])["energy"], march_of(chosen[1])["energy"]
     figure.suptitle(f"Pressure over the cycle: time-spectral E = {energies[0]:.3g}, marched E = {energies[1]:.3g}",

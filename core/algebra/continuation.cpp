@@ -12,6 +12,9 @@ namespace {
 
 // A node nearer to its neighbour than this part of the newest step adds nothing but its errors.
 constexpr double crowded = 0.1;
+// Solutions nearer to each other than this, in the scales of the plane, are one: no direction is left in
+// them.
+constexpr double coincident = 1e-7;
 // A target this little beyond a step is reached in the same step.
 constexpr double stretch = 1.3;
 
@@ -168,6 +171,10 @@ BranchStep BranchFollower::advance(const BranchTarget& target) {
 void BranchFollower::accept(BranchPoint point) {
   const double step = std::hypot((point.amplitude - last().amplitude) / options_.amplitude_scale,
                                  (point.speed - last().speed) / options_.speed_scale);
+  if (nodes_.size() > 1 && step < coincident) {
+    nodes_.back().point = std::move(point);
+    return;
+  }
   const double length = nodes_.back().length + direction_ * step;
   for (std::size_t i = nodes_.size(); i-- > 1;)
     if (std::abs(nodes_[i].length - nodes_[i - 1].length) < crowded * step)

@@ -42,6 +42,17 @@ TEST_F(March, FindsTheFlutterPointOfTheTimeSpectralMethod) {
   EXPECT_EQ(marched["marches"][0]["verdict"], "decays");
 }
 
+// There small motion outgrows what is small within few periods, and a march that went on would settle on a
+// limit cycle, which does not grow either. The rates are known well enough for 1e-4 of V from both guesses.
+TEST_F(March, FindsTheFlutterPointFromFarAboveIt) {
+  const std::vector<std::string> common{"--find-flutter", "march.steps_per_period=32"};
+  auto near = common, far = common;
+  near.push_back("march.reduced_velocity=2.9");
+  far.push_back("march.reduced_velocity=4");
+  const double expected = solve("march", near)["flutter"]["reduced_velocity"];
+  EXPECT_NEAR(solve("march", far)["flutter"]["reduced_velocity"].get<double>(), expected, 2e-4 * expected);
+}
+
 // A march begun again from its own levels goes on as if it had not stopped, but for the forces' prediction:
 // within the tolerance, 1e-4 of what changes in a step, which is 0.04 of the motion.
 TEST_F(March, GoesOnFromItsLevels) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -32,8 +33,13 @@ TEST(GrowthBracket, FindsTheSpeedOfNoGrowthFromBothSidesWithinItsError) {
     const GrowthCrossing crossing = *search.crossing();
     EXPECT_LE(crossing.reduced_velocity_error, 1e-5 * flutter_speed);
     EXPECT_NEAR(crossing.reduced_velocity, flutter_speed, 1e-5 * flutter_speed);
-    // The slope is that of a chord, which steps of a tenth of the speed make 0.3 long at most.
-    EXPECT_NEAR(crossing.slope, 0.08, 0.05 * 0.3);
+    // The slope of a chord from low to high is 0.08 + 0.05 (low + high), both counted from the flutter speed,
+    // which lies between.
+    double low = -flutter_speed, high = flutter_speed;
+    for (const GrowthAtSpeed& p : search.points())
+      (p.rate > 0.0 ? high : low) = p.rate > 0.0 ? std::min(high, p.reduced_velocity - flutter_speed)
+                                                 : std::max(low, p.reduced_velocity - flutter_speed);
+    EXPECT_NEAR(crossing.slope, 0.08, 0.05 * (high - low));
     EXPECT_NEAR(crossing.frequency, 0.6, 1e-5);
   }
 }
@@ -70,6 +76,17 @@ TEST(GrowthBracket, AsksForRatesAsExactAsTheToleranceNeeds) {
   EXPECT_FALSE(search.rate_tolerance());
   for (const double v : {2.8, 3.0}) search.add({v, 0.08 * (v - flutter_speed), 0.0, 0.6, 0.0});
   EXPECT_NEAR(*search.rate_tolerance(), 0.25 * 1e-4 * flutter_speed * 0.08, 1e-12);
+}
+
+// Motion that outgrows what is small at once has a rate that is known to no better than itself.
+TEST(GrowthBracket, HalvesTheSpeedsBetweenWhichGrowthSetsInWhereItsRateIsNotKnown) {
+  GrowthBracket search(8.0, {});
+  search.add({8.0, 0.5, 0.5, 1.0, 1.0});
+  EXPECT_LT(search.next(), 8.0);
+  search.add({4.0, 0.2, 0.2, 1.0, 1.0});
+  search.add({2.0, -0.1, 1e-5, 0.6, 1e-5});
+  EXPECT_FALSE(search.crossing());
+  EXPECT_DOUBLE_EQ(search.next(), 3.0);
 }
 
 // Rates that do not rise with the speed have no crossing to extrapolate to.

@@ -158,6 +158,20 @@ TEST(CycleEstimate, DoesNotTakeSteadyGrowthOrDecayForACycle) {
   }
 }
 
+// A weakly attracting cycle, begun near it with a transient that halves every period: all growths together
+// fall with the transient, not with the energy.
+TEST(CycleEstimate, IsNotMisledByATransientNearTheCycle) {
+  std::vector<MarchedPeriod> periods{{0.0, pitch_period / 0.65, 0.995 * settled_energy}};
+  for (double transient = 2e-4; periods.size() < 6; transient /= 2.0) {
+    MarchedPeriod next = periods.back();
+    next.begin += next.period;
+    next.energy *= std::exp(0.035 * (1.0 - next.energy / settled_energy) + transient);
+    periods.push_back(next);
+  }
+  const auto cycle = estimate_cycle(periods);
+  EXPECT_TRUE(!cycle || cycle->energy_error > 0.5 * std::abs(cycle->energy - settled_energy));
+}
+
 // A period sampled as a periodic solution holds it: a sine in pitch, the mean kept.
 TEST(CycleEstimate, SamplesAPeriodWithPitchAsASine) {
   const Values mean{0.2, -0.1, 0.0, 0.0};

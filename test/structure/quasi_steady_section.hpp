@@ -5,36 +5,23 @@
 #include <vector>
 
 #include "structure/time_marching.hpp"
+#include "test/structure/quasi_steady_model.hpp"
 
 namespace wingbeat::testing {
 
-// The typical section with quasi-steady loads of He, Jonsson & Martins (Nonlinear Dynamics 2022): lift and
-// moment follow the effective incidence alpha + h'/V. Its Hopf point is V = omega = 3/sqrt(13).
+// The quasi-steady section as it is marched in time.
 struct QuasiSteadySection {
   double cubic = 0.0;
-  double mass_ratio = 10.0;
+  double mass_ratio = quasi_steady::mass_ratio;
 
-  static constexpr double gyration_radius_squared = 0.09;
-  static Eigen::VectorXd force_direction() { return Eigen::VectorXd{{-1.0, 0.2}}; }
-
-  StructureModel model() const {
-    StructureModel model;
-    model.modes = {"plunge", "pitch"};
-    model.mass.resize(2, 2);
-    model.mass << 1.0, 0.2, 0.2, gyration_radius_squared;
-    model.damping = Eigen::MatrixXd::Zero(2, 2);
-    model.stiffness = Eigen::Vector2d(0.25, gyration_radius_squared).asDiagonal();
-    model.load_factor = 2.0 / mass_ratio;
-    model.phase_mode = 1;
-    if (cubic != 0.0) model.restoring = {polynomial_spring(1, gyration_radius_squared * cubic, 0.0)};
-    return model;
-  }
+  StructureModel model() const { return quasi_steady::section({cubic, 0.0}, mass_ratio); }
 
   // B of the linear section, y' = B y.
   Eigen::MatrixXd system(double velocity) const {
     const StructureModel section = model();
     Eigen::MatrixXd b = -first_order_matrix(section);
-    const Eigen::VectorXd push = section.load(velocity) * section.mass.llt().solve(force_direction());
+    const Eigen::VectorXd push =
+        section.load(velocity) * section.mass.llt().solve(quasi_steady::force_direction);
     b.col(1).tail(2) += push;
     b.col(2).tail(2) += push / velocity;
     return b;
@@ -56,9 +43,8 @@ class QuasiSteadyLoads final : public UnsteadyLoads {
   void begin(double) override {}
   SolveStatus forces(std::span<const double> y, std::span<double> f) override {
     ++visits;
-    const Eigen::VectorXd force = QuasiSteadySection::force_direction() * (y[1] + y[2] / velocity_);
-    f[0] = force[0];
-    f[1] = force[1];
+    for (std::size_t j = 0; j < 2; ++j)
+      f[j] = quasi_steady::force_direction[static_cast<Eigen::Index>(j)] * (y[1] + y[2] / velocity_);
     return SolveStatus::converged;
   }
   void accept() override {}

@@ -88,6 +88,15 @@ TEST(Continuation, TurningLeadsBack) {
   EXPECT_NEAR(angle_of(branch.found()), std::asin(0.2), 1e-12);
 }
 
+// The same solution twice, but for round-off, has no direction: the one before is kept.
+TEST(Continuation, ATargetWhereTheBranchAlreadyIsDoesNotLoseItsDirection) {
+  BranchFollower branch = follower(-1.0, -0.9);
+  const double here = branch.last().amplitude, further = at_angle(-0.3).amplitude;
+  ASSERT_EQ(go_to(branch, {BranchTarget::Kind::amplitude, std::nextafter(here, 3.0)}), BranchStep::reached);
+  ASSERT_EQ(go_to(branch, {BranchTarget::Kind::amplitude, further}), BranchStep::reached);
+  EXPECT_NEAR(angle_of(branch.found()), -0.3, 1e-8);
+}
+
 TEST(Continuation, StepsThatFailAreHalvedAndThenGivenUpWithAReason) {
   // No correction beyond a quarter of the circle converges.
   BranchFollower branch = follower(0.0, 0.05, [](BranchPoint& point, const BranchRow& row) {
