@@ -86,7 +86,10 @@ void print_march(Context& context, const MarchSummary& summary) {
              found.growth->frequency_error);
   }
   if (found.last) log.line("{:<34}{:.6e}", "energy of the last period", found.last->energy);
-  if (found.cycle) log.line("{:<34}{:.1e}", "distance to the limit cycle's", found.cycle->energy_error);
+  const bool is_settling =
+      found.verdict == MarchVerdict::limit_cycle || found.verdict == MarchVerdict::undecided;
+  if (found.cycle && is_settling)
+    log.line("{:<34}{:.1e}", "distance to the limit cycle's", found.cycle->energy_error);
   log.line("{:<34}{:.6f} deg, plunge {:.3e} semichords", "pitch amplitude", summary.pitch_amplitude_deg,
            summary.plunge_amplitude);
   log.line("{:<34}{}\n", "time steps", summary.time_steps);
