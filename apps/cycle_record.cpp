@@ -127,10 +127,10 @@ ordered_json CycleRecord::asked() const {
   return list;
 }
 
-bool CycleRecord::has_energy(double energy) const {
-  return std::ranges::any_of(lines_, [energy](const ordered_json& line) {
+bool CycleRecord::has(const char* number, double value) const {
+  return std::ranges::any_of(lines_, [&](const ordered_json& line) {
     return line["asked"].get<bool>() && line["entry"]["status"] == "converged" &&
-           is_same(line["entry"]["energy"].get<double>(), energy);
+           is_same(line["entry"][number].get<double>(), value);
   });
 }
 

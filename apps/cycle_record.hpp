@@ -25,12 +25,14 @@ class CycleRecord {
 
   // The cycles asked for, in the order found.
   nlohmann::ordered_json asked() const;
-  // A cycle of that energy was asked for and found.
-  bool has_energy(double energy) const;
+  // A cycle of that energy, or of that speed, was asked for and found.
+  bool has_energy(double energy) const { return has("energy", energy); }
+  bool has_speed(double reduced_velocity) const { return has("reduced_velocity", reduced_velocity); }
   // Whether the cycle is one of those found already, a restart's own. Asked for now, it counts as such.
   bool holds(const CycleSolution& solution, bool is_asked);
 
  private:
+  bool has(const char* number, double value) const;
   void write() const;
 
   Context& context_;

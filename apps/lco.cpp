@@ -67,7 +67,10 @@ SolveStatus end_at(const LcoRun& run, const CycleBranch& branch, BranchStep step
 // way, else beyond.
 class BranchWalk {
  public:
-  BranchWalk(const LcoRun& run, CycleBranch& branch) : run_(run), branch_(branch) {}
+  BranchWalk(const LcoRun& run, CycleBranch& branch)
+      : run_(run),
+        branch_(branch),
+        is_speed_met_(lco().reduced_velocity && run.record.has_speed(*lco().reduced_velocity)) {}
 
   // Both go on while there is no status to end with.
   std::optional<SolveStatus> to_energy(double energy) {
@@ -118,7 +121,7 @@ class BranchWalk {
 
   const LcoRun& run_;
   CycleBranch& branch_;
-  bool is_speed_met_ = false;
+  bool is_speed_met_;
 };
 
 SolveStatus follow_branch(const LcoRun& run, CycleSolver& solver, const CycleStart& start,
