@@ -83,7 +83,6 @@ SolveStatus Marcher::advance(March& march) {
 }
 
 void Marcher::summarize(const March& march, MarchSummary& summary) const {
-  summary.time_steps = march.steps;
   if (!summary.assessment.last) return;
   const std::vector<double> period = sampled_period(model_, {march.record, march.structure->dtau()},
                                                     *summary.assessment.last, amplitude_instances);
@@ -114,8 +113,14 @@ MarchRun Marcher::run(const TimeLevels& start, const RestState& rest, const Marc
     const SolveStatus status = take_snapshots(march, found, snapshots);
     if (status != SolveStatus::converged) run.status = status;
   }
-  run.levels = {flow_.history(), march.structure->history(), start.dtau, v, rest.y};
+  run.summary.time_steps = march.steps;
+  run.levels = levels_of(march);
   return run;
+}
+
+TimeLevels Marcher::levels_of(const March& march) const {
+  return {flow_.history(), march.structure->history(), march.structure->dtau(), march.reduced_velocity,
+          march.rest.y};
 }
 
 SolveStatus Marcher::march_to_verdict(March& march, const MarchCriteria& criteria, const std::string& until,
@@ -140,6 +145,7 @@ SolveStatus Marcher::march_to_verdict(March& march, const MarchCriteria& criteri
       progress.show(fraction);
       continue;
     }
+    write_time_levels(context_, level_, levels_of(march));  // to go on from, should the run be lost
     const auto& growth = found.growth;
     progress.row({fmt::format("{}", march.steps / line), fmt::format("{:.3e}", energy),
                   growth ? fmt::format("{:+.3e}", growth->rate) : "",

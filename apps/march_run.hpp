@@ -39,6 +39,7 @@ class Marcher {
                                MarchAssessment& found);
   SolveStatus take_snapshots(March& march, const MarchAssessment& found, int snapshots);
   void summarize(const March& march, MarchSummary& summary) const;
+  TimeLevels levels_of(const March& march) const;
 
   Context& context_;
   FlowLevel<2>& level_;

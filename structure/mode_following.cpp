@@ -202,9 +202,11 @@ PkResult follow_modes(const StructureModel& model, const SpectrumAt& spectrum, d
   for (const double velocity : reduced_velocities) {
     while (here.velocity < velocity) {
       Station next = advance(modes, here, velocity);
-      for (std::size_t i = 0; i < next.points.size(); ++i)
-        if (crosses(here.points[i], next.points[i]))
-          result.crossings.push_back(locate(modes, here, next, i, options));
+      for (std::size_t i = 0; i < next.points.size(); ++i) {
+        if (!crosses(here.points[i], next.points[i])) continue;
+        PkCrossing found = locate(modes, here, next, i, options);
+        if (found.point.status == PkStatus::converged) result.crossings.push_back(std::move(found));
+      }
       here = std::move(next);
     }
     for (std::size_t i = 0; i < here.points.size(); ++i) result.branches[i].push_back(here.points[i]);
