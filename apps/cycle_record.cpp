@@ -112,11 +112,28 @@ void CycleRecord::resume() {
   write();
 }
 
+ordered_json* CycleRecord::find(const CycleSolution& solution) {
+  const double v = section_kinematics(context_.settings).reduced_velocity(solution.state.r);
+  const auto held = std::ranges::find_if(lines_, [&](const ordered_json& line) {
+    const ordered_json& entry = line["entry"];
+    return solution.status == SolveStatus::converged && entry["status"] == "converged" &&
+           entry["harmonics"] == time_of(solution.state).harmonics() &&
+           is_same(entry["reduced_velocity"].get<double>(), v) &&
+           is_same(entry["frequency_ratio"].get<double>(), solution.state.omega);
+  });
+  return held == lines_.end() ? nullptr : &*held;
+}
+
 void CycleRecord::add(ordered_json entry, const CycleSolution& solution, bool is_asked) {
-  ordered_json line{{"point", lines_.size() + 1}, {"asked", is_asked}};
-  line["instances"] = instance_rows(context_.settings, solution);
-  line["entry"] = std::move(entry);
-  lines_.push_back(std::move(line));
+  if (ordered_json* held = find(solution)) {
+    if (!is_asked || (*held)["asked"].get<bool>()) return;
+    (*held)["asked"] = true;
+  } else {
+    ordered_json line{{"point", lines_.size() + 1}, {"asked", is_asked}};
+    line["instances"] = instance_rows(context_.settings, solution);
+    line["entry"] = std::move(entry);
+    lines_.push_back(std::move(line));
+  }
   write();
 }
 
@@ -132,23 +149,6 @@ bool CycleRecord::has(const char* number, double value) const {
     return line["asked"].get<bool>() && line["entry"]["status"] == "converged" &&
            is_same(line["entry"][number].get<double>(), value);
   });
-}
-
-bool CycleRecord::holds(const CycleSolution& solution, bool is_asked) {
-  const double v = section_kinematics(context_.settings).reduced_velocity(solution.state.r);
-  const auto held = std::ranges::find_if(lines_, [&](const ordered_json& line) {
-    const ordered_json& entry = line["entry"];
-    return solution.status == SolveStatus::converged && entry["status"] == "converged" &&
-           entry["harmonics"] == time_of(solution.state).harmonics() &&
-           is_same(entry["reduced_velocity"].get<double>(), v) &&
-           is_same(entry["frequency_ratio"].get<double>(), solution.state.omega);
-  });
-  if (held == lines_.end()) return false;
-  if (is_asked && !(*held)["asked"].get<bool>()) {
-    (*held)["asked"] = true;
-    write();
-  }
-  return true;
 }
 
 void CycleRecord::write() const {

@@ -20,7 +20,8 @@ class CycleRecord {
   // InputError where they are of another case, naming the keys that differ. What did not converge is left
   // out.
   void resume();
-  // `entry`: as result.json holds it. Asked: a cycle of the case's list, not a step between.
+  // `entry`: as result.json holds it. Asked: a cycle of the case's list, not a step between. A cycle found
+  // already, a restart's own, is not added again; asked for now, it counts as asked.
   void add(nlohmann::ordered_json entry, const CycleSolution& solution, bool is_asked);
 
   // The cycles asked for, in the order found.
@@ -28,10 +29,9 @@ class CycleRecord {
   // A cycle of that energy, or of that speed, was asked for and found.
   bool has_energy(double energy) const { return has("energy", energy); }
   bool has_speed(double reduced_velocity) const { return has("reduced_velocity", reduced_velocity); }
-  // Whether the cycle is one of those found already, a restart's own. Asked for now, it counts as such.
-  bool holds(const CycleSolution& solution, bool is_asked);
 
  private:
+  nlohmann::ordered_json* find(const CycleSolution& solution);
   bool has(const char* number, double value) const;
   void write() const;
 

@@ -112,8 +112,8 @@ CycleSolution CycleSolver::solve(const std::string& stage, const CycleStart& sta
   if (solver.flow_solver() != "runge_kutta_newton" || turns.status != SolveStatus::converged) return turns;
   // Newton finishes on all rows at once, near what the turns arrived at.
   CycleCondition condition = condition_of(amplitude, model_);
-  condition.energy.energy = fluctuating_energy(model_, turns.state.y);
-  if (const auto* given = std::get_if<GivenEnergy>(&amplitude)) condition.energy.energy = given->energy;
+  if (std::holds_alternative<GivenSpeed>(amplitude))
+    condition.energy.energy = fluctuating_energy(model_, turns.state.y);
   CycleSolution solution =
       solve_coupled(stage, restart(turns.state), condition, {solver.max_newton_iterations});
   solution.staggered_iterations = turns.staggered_iterations;

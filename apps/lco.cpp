@@ -28,7 +28,7 @@ struct LcoRun {
     const auto part = context.timer.measure("output");
     write_solution_files(context, level, solution.state);
     const auto entry = cycle_entry(context.settings, model, solution);
-    if (!record.holds(solution, is_asked)) record.add(entry, solution, is_asked);
+    record.add(entry, solution, is_asked);
     context.result.findings["lco"] = record.asked();
     if (is_asked) print_cycle(context, entry);
   }

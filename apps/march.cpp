@@ -54,7 +54,6 @@ class MarchCase {
                     double reduced_velocity) const;
   MarchCriteria criteria() const;
   double speed(std::optional<double> stored = {}) const;
-  bool needs_rest() const { return context_.find_flutter; }
   void finish(const MarchRun& run);
 
   Context& context_;
@@ -178,7 +177,7 @@ MarchStart MarchCase::begin() {
     else
       level_.w = std::move(stored.state.w);
   }
-  if (start && !needs_rest()) return *std::move(start);
+  if (start && !context_.find_flutter) return *std::move(start);
   const double v = start ? start->levels.reduced_velocity : speed();
   const SolveStatus steady = run_steady_stage(context_, levels_, history_);
   if (steady != SolveStatus::converged) return {steady, {}, {}};

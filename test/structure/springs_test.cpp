@@ -10,9 +10,12 @@
 
 #include "core/io/error.hpp"
 #include "structure/typical_section.hpp"
+#include "test/structure/section_refusal.hpp"
 
 namespace wingbeat {
 namespace {
+
+using testing::message_of;
 
 constexpr double stiffness = 0.75, gap = 0.01, smoothing = 0.1;
 
@@ -75,15 +78,6 @@ TEST(Springs, OfASectionActOnTheirModesAndLeaveTheMatricesAlone) {
   EXPECT_DOUBLE_EQ(model.restoring[1].value(0.2), -2.0 * 0.008 + 40.0 * 0.00032);
   EXPECT_EQ(model.restoring[2].mode, pitch_mode);
   EXPECT_NEAR(model.restoring[2].value(1.0), -0.75 * 0.1, 1e-15);
-}
-
-std::string message_of(const TypicalSection& section) {
-  try {
-    structure_model(section);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
 }
 
 TEST(Springs, RefuseValuesWithoutMeaningByTheirKey) {
