@@ -1,26 +1,34 @@
 #include "flow/block_geometry.hpp"
 
+#include <tuple>
+
 #include "core/mesh/metrics.hpp"
 #include "core/number/math.hpp"
 
 namespace wingbeat {
 namespace {
 
-Index<2> above(Index<2> node, int d) { return ++node[d], node; }
-
-// Face `f` of direction d, with its low corner at node f.
-FaceMetrics<2> face_at(const BlockArray<Vec<double, 2>, 2>& nodes, const Index<2>& f, int d) {
-  return d == 0 ? face_metrics(nodes(f), nodes(above(f, 1))) : face_metrics(nodes(above(f, 0)), nodes(f));
-}
-
-FaceMetrics<3> face_at(const BlockArray<Vec<double, 3>, 3>& nodes, const Index<3>& f, int d) {
-  const int s = (d + 1) % 3, t = (d + 2) % 3;
-  Index<3> f10 = f, f01 = f, f11 = f;
-  ++f10[s], ++f01[t], ++f11[s], ++f11[t];
-  return face_metrics(nodes(f), nodes(f10), nodes(f01), nodes(f11));
+template <int Dim>
+FaceMetrics<Dim> face_at(const BlockArray<Vec<double, Dim>, Dim>& nodes, const Index<Dim>& f, int d) {
+  return std::apply([&](const auto&... corner) { return face_metrics(nodes(corner)...); },
+                    face_corners<Dim>(f, d));
 }
 
 }  // namespace
+
+template <>
+std::array<Index<2>, 2> face_corners<2>(const Index<2>& f, int d) {
+  if (d == 0) return {f, {f[0], f[1] + 1}};
+  return {Index<2>{f[0] + 1, f[1]}, f};
+}
+
+template <>
+std::array<Index<3>, 4> face_corners<3>(const Index<3>& f, int d) {
+  const auto s = static_cast<std::size_t>((d + 1) % 3), t = static_cast<std::size_t>((d + 2) % 3);
+  std::array<Index<3>, 4> corners{f, f, f, f};
+  ++corners[1][s], ++corners[2][t], ++corners[3][s], ++corners[3][t];
+  return corners;
+}
 
 template <int Dim>
 BlockLayout<Dim>::BlockLayout(const Index<Dim>& cells) : extents(cells) {
@@ -46,7 +54,7 @@ BlockGeometry<Dim>::BlockGeometry(const LocalBlock<Dim>& block, const Vec<double
     Box<Dim> faces = grown(cells, 1);
     ++faces.end[d];
     for_each(faces, [&](const Index<Dim>& f) {
-      const FaceMetrics<Dim> face = face_at(block.nodes, f, d);
+      const FaceMetrics<Dim> face = face_at<Dim>(block.nodes, f, d);
       const auto o = static_cast<std::size_t>(layout.offset(f));
       for (int c = 0; c < Dim; ++c) normal[d][c][o] = face.normal[c];
       moment[d][o] = face.moment_z - (axis[0] * face.normal[1] - axis[1] * face.normal[0]);
@@ -57,9 +65,17 @@ BlockGeometry<Dim>::BlockGeometry(const LocalBlock<Dim>& block, const Vec<double
       Index<Dim> high = low;
       ++high[d];
       volume[cell++] +=
-          (face_at(block.nodes, high, d).volume_flux - face_at(block.nodes, low, d).volume_flux) / Dim;
+          (face_at<Dim>(block.nodes, high, d).volume_flux - face_at<Dim>(block.nodes, low, d).volume_flux) / Dim;
     });
   }
+}
+
+template <int Dim>
+BlockGeometry<Dim>::BlockGeometry(const BlockLayout<Dim>& zero_layout) : layout(zero_layout) {
+  for (auto& direction : normal)
+    for (auto& values : direction) values.assign(layout.size, 0.0);
+  for (auto& values : moment) values.assign(layout.size, 0.0);
+  volume.assign(box_of<Dim>(layout.extents).size(), 0.0);
 }
 
 template struct BlockLayout<2>;

@@ -47,6 +47,14 @@ struct BlockGeometry {
 
   // `axis`: a point of the axis of rotation, which is parallel to z.
   BlockGeometry(const LocalBlock<Dim>& block, const Vec<double, 2>& axis);
+  // All zero: to hold a change of a geometry, or sensitivities to it.
+  explicit BlockGeometry(const BlockLayout<Dim>& zero_layout);
 };
+
+// Nodes of face f of direction d, in the order that face_metrics takes.
+template <int Dim>
+inline constexpr int face_corner_count = 1 << (Dim - 1);
+template <int Dim>
+std::array<Index<Dim>, face_corner_count<Dim>> face_corners(const Index<Dim>& f, int d);
 
 }  // namespace wingbeat

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "flow/gas.hpp"
+#include "flow/flow_domain.hpp"
+#include "flow/moved_face.hpp"
 
 // Boundary fluxes are functions of interior states only: there is no ghost state to keep filled.
 // Normals point out of the flow.
@@ -74,6 +75,29 @@ State<Dim, T> farfield_flux(const State<Dim, T>& interior, const State<Dim, T>& 
                             const Vec<G, Dim>& normal, const G& sweep, double gamma) {
   const auto boundary = farfield_state<Dim, T, G>(interior, outside, normal, sweep, gamma);
   return euler_flux<Dim, T, G>(boundary.w, boundary.p, normal, sweep);
+}
+
+// A face of a physical boundary with its normal and sweep out of the flow.
+template <int Dim, class S, class Geometry>
+MovedFace<Dim, S> outward_face(const Geometry& geometry, const RigidMotion<S>& motion,
+                               const BoundaryFace& boundary) {
+  const auto face = moved_face<Dim, S>(geometry, motion, boundary.direction, boundary.face);
+  return {boundary.outward * face.normal, boundary.outward * face.sweep};
+}
+
+// Flux out through a face of a physical boundary, in excess of the free stream's (eq:excess-flux), from
+// the state and pressure of the cell there and the pressure of the one behind it.
+template <int Dim, class S>
+State<Dim, S> boundary_flux(BoundaryType type, const State<Dim, S>& w, const S& p_first, const S& p_second,
+                            const MovedFace<Dim, S>& outward, const Freestream<Dim, S>& freestream) {
+  const UniformFlow<Dim, S> uniform = freestream.flow();
+  if (type == BoundaryType::farfield) {
+    const auto at_face =
+        farfield_state<Dim, S, S>(w, uniform.w, outward.normal, outward.sweep, freestream.gamma);
+    return excess_flux<Dim, S>(at_face.w, at_face.p, uniform, outward.normal, outward.sweep);
+  }
+  return wall_flux<Dim, S, S>(wall_pressure<S>(p_first, p_second), outward.normal, outward.sweep) -
+         euler_flux<Dim, S, S>(uniform.w, uniform.p, outward.normal, outward.sweep);
 }
 
 }  // namespace wingbeat

@@ -28,19 +28,11 @@ void differentiate_dissipation(const SchemeType& scheme, const FaceStencil<Dim, 
   constexpr int n = state_size<Dim>;
   const auto dissipation_with = [&]<int Seeds>(auto&& seed) {
     using D = Dual<Pack, Seeds>;
-    const auto lifted = [](const auto& values) {
-      Vec<D, std::remove_cvref_t<decltype(values)>::size()> result;
-      for (int i = 0; i < result.size(); ++i) result[i] = values[i];
-      return result;
-    };
-    FaceStencil<Dim, D> seeded;
-    for (int k = 0; k < 4; ++k) seeded.w[k] = lifted(cells.w[k]);
-    seeded.p = lifted(cells.p);
-    seeded.radius = lifted(cells.radius);
+    auto seeded = lifted<D>(cells);
     seed(seeded);
-    return scheme.dissipation(seeded, MovedFace<Dim, D>{lifted(face.normal), face.sweep},
-                              UniformFlow<Dim, D>{lifted(freestream.w), lifted(freestream.u), freestream.p},
-                              gamma);
+    return scheme.dissipation(
+        seeded, MovedFace<Dim, D>{lifted<D>(face.normal), face.sweep},
+        UniformFlow<Dim, D>{lifted<D>(freestream.w), lifted<D>(freestream.u), freestream.p}, gamma);
   };
   for (std::size_t k = 0; k < 4; ++k) {
     const auto d = dissipation_with.template operator()<n + 1>([&](auto& seeded) {

@@ -24,9 +24,9 @@ T strided(const S* values, int stride) {
 }
 
 // Sweeps are flattened: a kernel left as a call would pass its packs through memory.
-template <int Dim, class S>
-[[gnu::flatten]] void sweep_radii(const BlockGeometry<Dim>& geometry, const RigidMotion<Sweep<S>>& motion,
-                                  double gamma, BlockState<Dim, S>& state) {
+template <int Dim, class S, class Geometry>
+[[gnu::flatten]] void sweep_radii(const Geometry& geometry, const RigidMotion<Sweep<S>>& motion, double gamma,
+                                  BlockState<Dim, S>& state) {
   using T = Sweep<S>;
   const auto& layout = geometry.layout;
   const Box<Dim> cells = grown(box_of<Dim>(layout.extents), 1);
@@ -49,9 +49,9 @@ void store_state(const State<Dim, T>& values, auto& field, std::ptrdiff_t o) {
 
 // Flux through every face of a direction, as if it were an interior one, in excess of the free
 // stream's.
-template <Part part, int Dim, class S, class SchemeType>
-[[gnu::flatten]] void sweep_fluxes(const BlockGeometry<Dim>& geometry, const RigidMotion<Sweep<S>>& motion,
-                                   int d, const Freestream<Dim, S>& stream, const SchemeType& scheme,
+template <Part part, int Dim, class S, class SchemeType, class Geometry>
+[[gnu::flatten]] void sweep_fluxes(const Geometry& geometry, const RigidMotion<Sweep<S>>& motion, int d,
+                                   const Freestream<Dim, S>& stream, const SchemeType& scheme,
                                    BlockState<Dim, S>& state) {
   using T = Sweep<S>;
   const auto freestream = widened<Dim, T>(stream.flow());
@@ -70,31 +70,16 @@ template <Part part, int Dim, class S, class SchemeType>
   }
 }
 
-// Flux out through a face on a physical boundary, in excess of the free stream's.
-template <int Dim, class S>
-State<Dim, S> boundary_flux(const BoundaryFace& boundary, const Vec<S, Dim>& outward, const S& sweep,
-                            const FlowModel<Dim, S>& model, const BlockState<Dim, S>& state) {
-  const UniformFlow<Dim, S> freestream = model.freestream.flow();
-  if (boundary.type == BoundaryType::farfield) {
-    const auto at_face = farfield_state<Dim, S, S>(load_state<Dim, S>(state, boundary.first), freestream.w,
-                                                   outward, sweep, model.freestream.gamma);
-    return excess_flux<Dim, S>(at_face.w, at_face.p, freestream, outward, sweep);
-  }
-  const S* p = state.p.data();
-  return wall_flux<Dim, S, S>(wall_pressure<S>(p[boundary.first], p[boundary.second]), outward, sweep) -
-         euler_flux<Dim, S, S>(freestream.w, freestream.p, outward, sweep);
-}
-
 // Replaces the fluxes of the physical boundaries of a direction.
-template <int Dim, class S>
-void set_boundary_fluxes(const FlowBlock<Dim>& block, const RigidMotion<S>& motion, int d,
-                         const FlowModel<Dim, S>& model, BlockState<Dim, S>& state) {
+template <int Dim, class S, class Geometry>
+void set_boundary_fluxes(const FlowBlock<Dim>& block, const Geometry& geometry, const RigidMotion<S>& motion,
+                         int d, const FlowModel<Dim, S>& model, BlockState<Dim, S>& state) {
   for (const BoundaryFace& boundary : block.boundary) {
     if (boundary.direction != d) continue;
-    const auto face = moved_face<Dim, S>(block.geometry, motion, d, boundary.face);
-    const Vec<S, Dim> outward = boundary.outward * face.normal;
-    const S sweep = boundary.outward * face.sweep;
-    const State<Dim, S> flux = boundary_flux<Dim, S>(boundary, outward, sweep, model, state);
+    const auto face = outward_face<Dim, S>(geometry, motion, boundary);
+    const State<Dim, S> flux = boundary_flux<Dim, S>(
+        boundary.type, load_state<Dim, S>(state, boundary.first), state.p[static_cast<std::size_t>(boundary.first)],
+        state.p[static_cast<std::size_t>(boundary.second)], face, model.freestream);
     for (int v = 0; v < state_size<Dim>; ++v)
       state.flux[d][v][static_cast<std::size_t>(boundary.face)] = boundary.outward * flux[v];
   }
@@ -194,15 +179,15 @@ FaceField<Dim, S> zero_field(const BlockLayout<Dim>& layout) {
 }
 
 // All face sweeps of a block whose cells are loaded.
-template <Part part, int Dim, class S, class SchemeType>
-void sweep_block(const FlowBlock<Dim>& block, const FlowModel<Dim, S>& model, const SchemeType& scheme,
-                 const RigidMotion<S>& motion, BlockState<Dim, S>& state) {
+template <Part part, int Dim, class S, class SchemeType, class Geometry>
+void sweep_block(const FlowBlock<Dim>& block, const Geometry& geometry, const FlowModel<Dim, S>& model,
+                 const SchemeType& scheme, const RigidMotion<S>& motion, BlockState<Dim, S>& state) {
   const auto wide_motion = widen(motion);
   if constexpr (SchemeType::uses_radii && part != Part::central)
-    sweep_radii<Dim, S>(block.geometry, wide_motion, model.freestream.gamma, state);
+    sweep_radii<Dim, S>(geometry, wide_motion, model.freestream.gamma, state);
   for (int d = 0; d < Dim; ++d) {
-    sweep_fluxes<part, Dim, S>(block.geometry, wide_motion, d, model.freestream, scheme, state);
-    set_boundary_fluxes<Dim, S>(block, motion, d, model, state);
+    sweep_fluxes<part, Dim, S>(geometry, wide_motion, d, model.freestream, scheme, state);
+    set_boundary_fluxes<Dim, S>(block, geometry, motion, d, model, state);
   }
 }
 
@@ -274,9 +259,28 @@ template <int Dim, class S>
 void FluxBalance<Dim, S>::evaluate(std::span<const S> w, std::span<const S> ghosts,
                                    const RigidMotion<S>& motion, std::span<S> balance) {
   evaluate_blocks(w, ghosts, [&](const auto& block, const auto& scheme, auto& state) {
-    sweep_block<Part::flux, Dim, S>(block, model_, scheme, motion, state);
+    sweep_block<Part::flux, Dim, S>(block, block.geometry, model_, scheme, motion, state);
     set_balance<Dim, S>(block, state.flux, balance);
   });
+}
+
+template <int Dim, class S>
+void FluxBalance<Dim, S>::evaluate_changed(std::span<const S> w, std::span<const S> ghosts,
+                                           const RigidMotion<S>& motion,
+                                           std::span<const BlockGeometry<Dim>> change,
+                                           std::span<S> balance) requires std::is_same_v<S, Dual<double, 1>> {
+  std::size_t b = 0;
+  evaluate_blocks(w, ghosts, [&](const auto& block, const auto& scheme, auto& state) {
+    const ChangedGeometry<Dim> geometry{block.geometry, change[b++]};
+    sweep_block<Part::flux, Dim, S>(block, geometry, model_, scheme, motion, state);
+    set_balance<Dim, S>(block, state.flux, balance);
+  });
+}
+
+template <int Dim, class S>
+void load_radii(const FlowBlock<Dim>& block, const RigidMotion<S>& motion, double gamma,
+                BlockState<Dim, S>& state) {
+  sweep_radii<Dim, S>(block.geometry, widen(motion), gamma, state);
 }
 
 template <int Dim, class S>
@@ -286,10 +290,11 @@ void FluxBalance<Dim, S>::evaluate_stage(std::span<const S> w, std::span<const S
                                          std::span<S> balance) requires std::is_same_v<S, double> {
   evaluate_blocks(w, ghosts, [&](const auto& block, const auto& scheme, auto& state) {
     if (renewed == 0.0) {
-      sweep_block<Part::central, Dim, S>(block, model_, scheme, motion, state);
+      sweep_block<Part::central, Dim, S>(block, block.geometry, model_, scheme, motion, state);
     } else {
       if (state.dissipation[0][0].empty()) state.dissipation = zero_field<Dim, S>(block.geometry.layout);
-      sweep_block<Part::central_and_dissipation, Dim, S>(block, model_, scheme, motion, state);
+      sweep_block<Part::central_and_dissipation, Dim, S>(block, block.geometry, model_, scheme, motion,
+                                                         state);
       clear_boundary_fluxes<Dim, S>(block, state.dissipation);
       renew_dissipation<Dim>(block, state.dissipation, renewed, dissipation);
     }
@@ -317,6 +322,10 @@ template void load_block<2, double>(const FlowBlock<2>&, int, std::span<const do
                                     std::span<const double>, double, BlockState<2, double>&);
 template void load_block<3, double>(const FlowBlock<3>&, int, std::span<const double>,
                                     std::span<const double>, double, BlockState<3, double>&);
+template void load_radii<2, double>(const FlowBlock<2>&, const RigidMotion<double>&, double,
+                                    BlockState<2, double>&);
+template void load_radii<3, double>(const FlowBlock<3>&, const RigidMotion<double>&, double,
+                                    BlockState<3, double>&);
 template class FluxBalance<2, double>;
 template class FluxBalance<3, double>;
 template class FluxBalance<2, Dual<double, 1>>;

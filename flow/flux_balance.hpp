@@ -76,6 +76,10 @@ class FluxBalance {
   // w: [owned cell][variable], ghosts: [ghost cell][variable] -> balance: [owned cell][variable].
   void evaluate(std::span<const S> w, std::span<const S> ghosts, const RigidMotion<S>& motion,
                 std::span<S> balance);
+  // The same on a geometry that changes, [block]: the change's tangent is added to the gradients.
+  void evaluate_changed(std::span<const S> w, std::span<const S> ghosts, const RigidMotion<S>& motion,
+                        std::span<const BlockGeometry<Dim>> change,
+                        std::span<S> balance) requires std::is_same_v<S, Dual<double, 1>>;
   // balance = central part - dissipation; before that, `dissipation` (of the size of w) moves by the
   // share `renewed` to that of w. At 0 it is not computed, at 1 its old value does not count.
   void evaluate_stage(std::span<const S> w, std::span<const S> ghosts, const RigidMotion<S>& motion,
@@ -96,6 +100,12 @@ class FluxBalance {
 template <int Dim, class S>
 void load_block(const FlowBlock<Dim>& block, int owned_count, std::span<const S> w, std::span<const S> ghosts,
                 double gamma, BlockState<Dim, S>& state);
+
+// The scaled spectral radii of a block whose cells are loaded, one layer beyond it included
+// (eq:jst-radius).
+template <int Dim, class S>
+void load_radii(const FlowBlock<Dim>& block, const RigidMotion<S>& motion, double gamma,
+                BlockState<Dim, S>& state);
 
 // True where every density and pressure is positive and finite: w of any number of instances.
 template <int Dim>

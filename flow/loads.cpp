@@ -3,7 +3,6 @@
 #include <array>
 
 #include "flow/boundary.hpp"
-#include "flow/moved_face.hpp"
 
 namespace wingbeat {
 
@@ -47,12 +46,9 @@ Loads<S> WallLoads<Dim>::evaluate(std::span<const double> w, std::span<const dou
   Loads<S> loads;
   for (const WallFace& wall : faces_) {
     const auto& geometry = domain_.blocks()[wall.block].geometry;
-    const auto moved = moved_face<Dim, S>(geometry, motion, wall.face.direction, wall.face.face);
-    const double moment = geometry.moment[wall.face.direction][static_cast<std::size_t>(wall.face.face)];
     const double push = wall.face.outward * scale * (wall_pressure_at(wall, w, ghosts) - 1.0);
-    loads.force_x += push * moved.normal[0];
-    loads.force_y += push * moved.normal[1];
-    loads.moment += S(-push * moment);
+    add_wall_load<Dim, S>(resting_face<Dim, S>(geometry, wall.face.direction, wall.face.face), motion, S(push),
+                          loads);
   }
   const Comm& comm = domain_.comm();
   if constexpr (std::is_same_v<S, double>) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "flow/flux_balance.hpp"
+#include "flow/moved_face.hpp"
 
 namespace wingbeat {
 
@@ -15,6 +16,17 @@ struct Loads {
   S force_y{};
   S moment{};
 };
+
+// Adds what a wall face contributes: `push` is the pressure, less p_inf and over q_inf, with the sign of
+// the face's outward direction.
+template <int Dim, class S>
+void add_wall_load(const RestingFace<Dim, S>& face, const RigidMotion<S>& motion, const S& push,
+                   Loads<S>& loads) {
+  const Vec<S, Dim> normal = motion.turned(face.normal);
+  loads.force_x += push * normal[0];
+  loads.force_y += push * normal[1];
+  loads.moment -= push * face.moment;
+}
 
 // Gradients of the three coefficients with respect to the state of the instance, over the owned
 // cells of this rank: [owned cell][variable].

@@ -97,6 +97,14 @@ Dual<T, N> chain(const Dual<T, N>& x, const T& f, const T& derivative) {
   return result;
 }
 
+// The same values as constants of another number type.
+template <class D, class T, int N>
+Vec<D, N> lifted(const Vec<T, N>& values) {
+  Vec<D, N> result;
+  for (int i = 0; i < N; ++i) result[i] = values[i];
+  return result;
+}
+
 inline double value_of(double x) { return x; }
 template <class T, int N>
 T value_of(const Dual<T, N>& x) {

@@ -16,4 +16,14 @@ struct FaceStencil {
   Vec<P, 2> radius;
 };
 
+// The same as constants of another number type.
+template <class D, int Dim, class T>
+FaceStencil<Dim, D> lifted(const FaceStencil<Dim, T>& cells) {
+  FaceStencil<Dim, D> result;
+  for (int k = 0; k < 4; ++k) result.w[k] = lifted<D>(cells.w[k]);
+  result.p = lifted<D>(cells.p);
+  result.radius = lifted<D>(cells.radius);
+  return result;
+}
+
 }  // namespace wingbeat
