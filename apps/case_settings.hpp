@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "adjoint/design_settings.hpp"
 #include "core/algebra/solver_settings.hpp"
 #include "core/io/settings.hpp"
 #include "core/mesh/mesh_settings.hpp"
@@ -36,6 +37,7 @@ struct CaseSettings {
   LcoSettings lco;
   MarchSettings march;
   PkSettings pk;
+  DesignSettings design;
   SolverSettings solver;
   PseudoTimeSettings pseudo_time;
   StaggeredSettings staggered;

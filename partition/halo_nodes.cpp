@@ -1,45 +1,10 @@
 #include "partition/halo_nodes.hpp"
 
-#include "partition/halo_cells.hpp"
-
 namespace wingbeat {
 namespace {
 
 template <int Dim>
 using Nodes = BlockArray<Vec<double, Dim>, Dim>;
-
-// Calls f(corner) for the corners of a cell: 0 or 1 in each direction.
-template <int Dim, class F>
-void for_each_corner(F&& f) {
-  Index<Dim> two;
-  two.fill(2);
-  for_each(box_of<Dim>(two), f);
-}
-
-// The node of the cell at `position` that is its corner `corner` as the start zone sees it.
-template <int Dim>
-const Vec<double, Dim>& corner_node(const MultiblockMesh<Dim>& mesh, const CellPosition<Dim>& position,
-                                    const Index<Dim>& corner) {
-  Index<Dim> node = position.cell;
-  for (int d = 0; d < Dim; ++d) node[position.axis[d]] += position.sign[d] > 0 ? corner[d] : 1 - corner[d];
-  return mesh.zones[position.zone].nodes(node);
-}
-
-// Copies the nodes one layer out; `known` marks them.
-template <int Dim>
-void copy_from_neighbours(const MultiblockMesh<Dim>& mesh, int zone, const Box<Dim>& box, Nodes<Dim>& nodes,
-                          BlockArray<char, Dim>& known) {
-  for_each_halo_cell(mesh, zone, box, 1, [&](const HaloCell<Dim>& halo) {
-    const int d = halo.side.direction;
-    for_each_corner<Dim>([&](const Index<Dim>& corner) {
-      if (corner[d] != halo.side.end) return;  // the others are the box's own
-      Index<Dim> node;
-      for (int e = 0; e < Dim; ++e) node[e] = halo.index[e] - box.begin[e] + corner[e];
-      nodes(node) = corner_node<Dim>(mesh, halo.position, corner);
-      known(node) = 1;
-    });
-  });
-}
 
 // Direction by direction, each from all that the earlier directions have filled.
 template <int Dim>
@@ -73,12 +38,10 @@ BlockArray<Vec<double, Dim>, Dim> nodes_with_halo(const MultiblockMesh<Dim>& mes
   for (int d = 0; d < Dim; ++d) extents[d] = box.extent(d) + 1;
   Nodes<Dim> nodes(extents, 1);
   BlockArray<char, Dim> known(extents, 1, 0);
-  for_each(nodes.interior(), [&](const Index<Dim>& node) {
-    Index<Dim> zone_node;
-    for (int d = 0; d < Dim; ++d) zone_node[d] = node[d] + box.begin[d];
-    nodes(node) = mesh.zones[zone].nodes(zone_node);
+  for_each_node_with_halo(mesh, zone, box, [&](const Index<Dim>& index, int source, const Index<Dim>& node) {
+    nodes(index) = mesh.zones[source].nodes(node);
+    known(index) = 1;
   });
-  copy_from_neighbours(mesh, zone, box, nodes, known);
   extrapolate_the_rest<Dim>(nodes, known);
   return nodes;
 }

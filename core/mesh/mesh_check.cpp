@@ -254,6 +254,14 @@ std::vector<std::string> mesh_faults(const MultiblockMesh<Dim>& mesh) {
 }
 
 template <int Dim>
+std::vector<std::string> volume_faults(const MultiblockMesh<Dim>& mesh) {
+  std::vector<std::string> faults;
+  for (const Zone<Dim>& zone : mesh.zones)
+    if (check_nodes(zone, faults)) check_volumes(zone, faults);
+  return faults;
+}
+
+template <int Dim>
 void validate(const MultiblockMesh<Dim>& mesh, const std::string& source) {
   constexpr std::size_t listed = 20;
   const std::vector<std::string> faults = mesh_faults(mesh);
@@ -268,6 +276,8 @@ void validate(const MultiblockMesh<Dim>& mesh, const std::string& source) {
 
 template std::vector<std::string> mesh_faults<2>(const MultiblockMesh<2>&);
 template std::vector<std::string> mesh_faults<3>(const MultiblockMesh<3>&);
+template std::vector<std::string> volume_faults<2>(const MultiblockMesh<2>&);
+template std::vector<std::string> volume_faults<3>(const MultiblockMesh<3>&);
 template void validate<2>(const MultiblockMesh<2>&, const std::string&);
 template void validate<3>(const MultiblockMesh<3>&, const std::string&);
 

@@ -18,6 +18,11 @@ inline constexpr double interface_tolerance = 1e-4;
 template <int Dim>
 std::vector<std::string> mesh_faults(const MultiblockMesh<Dim>& mesh);
 
+// The first of these alone: nodes that are not finite, cells of zero or negative volume. What can go wrong
+// where the nodes of a checked mesh are moved.
+template <int Dim>
+std::vector<std::string> volume_faults(const MultiblockMesh<Dim>& mesh);
+
 // Throws InputError listing the first 20 faults, and how many more there are.
 // `source` is what the message begins with: the name of a file, say.
 template <int Dim>

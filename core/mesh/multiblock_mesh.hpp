@@ -82,6 +82,15 @@ CellPosition<Dim> start_position(int zone, const Index<Dim>& cell) {
   return position;
 }
 
+// The node of the cell at `position` that is its corner `corner` (0 or 1 in each direction) as the start
+// zone sees it.
+template <int Dim>
+Index<Dim> corner_node(const CellPosition<Dim>& position, const Index<Dim>& corner) {
+  Index<Dim> node = position.cell;
+  for (int d = 0; d < Dim; ++d) node[position.axis[d]] += position.sign[d] > 0 ? corner[d] : 1 - corner[d];
+  return node;
+}
+
 // Moves one cell along direction d of the start zone (step = +1 or -1), through interfaces
 // of any orientation. Returns false, leaving `position`, at a physical boundary.
 template <int Dim>
