@@ -75,6 +75,42 @@ AeroelasticState AeroelasticProblem<Dim>::state(std::span<const double> u) const
 }
 
 template <int Dim>
+std::vector<double> AeroelasticProblem<Dim>::by_unknowns(const AeroelasticState& by_state) const {
+  std::vector<double> u = by_state.w;
+  if (flow_.domain().comm().is_root()) u.insert(u.end(), by_state.y.begin(), by_state.y.end());
+  for (double& value : u) value *= scale_;
+  if (is_periodic() && flow_.domain().comm().is_root()) u.insert(u.end(), {by_state.omega, by_state.r});
+  return u;
+}
+
+template <int Dim>
+std::vector<double> AeroelasticProblem<Dim>::rows(std::span<const double> flow,
+                                                  std::span<const double> structure, double cycle) const {
+  std::vector<double> f(flow.begin(), flow.end());
+  if (flow_.domain().comm().is_root()) f.insert(f.end(), structure.begin(), structure.end());
+  for (double& value : f) value /= scale_;
+  if (is_periodic() && flow_.domain().comm().is_root()) f.insert(f.end(), {0.0, cycle});
+  return f;
+}
+
+template <int Dim>
+AeroelasticMultipliers AeroelasticProblem<Dim>::multipliers(std::span<const double> lambda) const {
+  const std::vector<double> tail =
+      broadcast_tail(flow_.domain().comm(), lambda, flow_.state_count(), linearization_.tail_size());
+  const auto states = static_cast<std::ptrdiff_t>(base_.y.size());
+  AeroelasticMultipliers result;
+  result.flow.assign(lambda.begin(), lambda.begin() + static_cast<std::ptrdiff_t>(flow_.state_count()));
+  result.structure.assign(tail.begin(), tail.begin() + states);
+  for (double& value : result.flow) value /= scale_;
+  for (double& value : result.structure) value /= scale_;
+  if (is_periodic()) {
+    result.phase = tail[base_.y.size()] / scale_;
+    result.cycle = tail[base_.y.size() + 1];
+  }
+  return result;
+}
+
+template <int Dim>
 std::vector<MotionState> AeroelasticProblem<Dim>::motions(const AeroelasticState& state) const {
   std::vector<MotionState> result;
   for (std::size_t n = 0; n < flow_.instance_count(); ++n)

@@ -37,6 +37,15 @@ struct AeroelasticState {
   double r = 1.0;
 };
 
+// Multipliers of the rows in physical terms: of R, S, Y and the cycle's row. The last three are the same on
+// all ranks.
+struct AeroelasticMultipliers {
+  std::vector<double> flow;
+  std::vector<double> structure;
+  double phase = 0.0;
+  double cycle = 0.0;
+};
+
 // The flutter or limit-cycle problem of a rigid section, F = (R/s, S/s, Y/s, E) in the unknowns
 // (w^, y^, omega, r) with w = w_s + s w^, y = y_s + s y^, s = sqrt(E_0): every block is O(1) however
 // small the amplitude (eq:closed-system); E is the row of `cycle` (eq:cycle-row). Without one it is static
@@ -55,6 +64,19 @@ class AeroelasticProblem final : public Problem {
   AeroelasticState state(std::span<const double> u) const;        // collective
   AeroelasticResiduals measure(std::span<const double> f) const;  // collective
   std::vector<MotionState> motions(const AeroelasticState& state) const;
+  std::vector<double> forces(const AeroelasticState& state);  // f = (-C_l, 2 C_m) of every instance
+
+  // How derivatives read in the problem's scaled layout, and multipliers outside of it. `by_state` holds
+  // dJ/d(w, y, omega, r), `flow` and `structure` changes of R and S.
+  std::vector<double> by_unknowns(const AeroelasticState& by_state) const;
+  std::vector<double> rows(std::span<const double> flow, std::span<const double> structure,
+                           double cycle) const;
+  AeroelasticMultipliers multipliers(std::span<const double> lambda) const;  // collective
+
+  FlowEquations<Dim>& flow() const { return flow_; }
+  const StructuralEquation& structure() const { return structure_; }
+  const SectionKinematics& kinematics() const { return linearization_.kinematics; }
+  const std::optional<CycleCondition>& cycle() const { return cycle_; }
 
   std::size_t local_size() const override;
   bool residual(std::span<const double> u, std::span<double> f) override;
@@ -68,7 +90,6 @@ class AeroelasticProblem final : public Problem {
 
  private:
   bool is_periodic() const { return cycle_.has_value(); }
-  std::vector<double> forces(const AeroelasticState& state);  // f = (-C_l, 2 C_m) of every instance
   void linearize_tail(const AeroelasticState& state, const std::vector<double>& f);
   void linearize_flow_by_frequency(const AeroelasticState& state, std::span<const double> u);
 

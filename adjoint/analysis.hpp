@@ -1,0 +1,32 @@
+#pragma once
+
+#include <memory>
+
+#include "adjoint/adjoint.hpp"
+
+namespace wingbeat {
+
+// A problem over its parameters: solved at a change of them, with a functional of the solution.
+template <int Dim>
+class Analysis {
+ public:
+  virtual ~Analysis() = default;
+  // Solves at the base's parameters plus `change`, from the last solution, and linearizes there. Throws
+  // SolveFailure where it does not converge. Collective.
+  virtual void solve(const Parameters<Dim>& change) = 0;
+  // At the last solution.
+  virtual const Functional<Dim>& functional() const = 0;
+  virtual ParameterPoint<Dim> point() const = 0;
+  // Makes new factors of the preconditioner at the last solution. Collective.
+  virtual void refactor() = 0;
+};
+
+// No change.
+template <int Dim>
+Parameters<Dim> no_change(const LocalNodes<Dim>& nodes) {
+  Parameters<Dim> change;
+  change.nodes.resize(nodes.numbers.size());
+  return change;
+}
+
+}  // namespace wingbeat

@@ -1,0 +1,91 @@
+#include "adjoint/cycle_analysis.hpp"
+
+#include "core/io/error.hpp"
+
+namespace wingbeat {
+namespace {
+
+TypicalSection moved(TypicalSection section, const std::array<double, scalar_count>& change) {
+  const auto by = [&](Scalar s) { return change[static_cast<std::size_t>(s)]; };
+  section.elastic_axis += by(Scalar::elastic_axis);
+  section.static_unbalance += by(Scalar::static_unbalance);
+  section.gyration_radius_squared += by(Scalar::gyration_radius_squared);
+  section.frequency_ratio += by(Scalar::frequency_ratio);
+  section.mass_ratio += by(Scalar::mass_ratio);
+  return section;
+}
+
+int harmonics_of(const AeroelasticState& state) {
+  constexpr std::size_t states = 4;  // of a section, an instance
+  return static_cast<int>(state.y.size() / states - 1) / 2;
+}
+
+}  // namespace
+
+template <int Dim>
+CycleAnalysis<Dim>::CycleAnalysis(const DomainBase<Dim>& base, const TypicalSection& section,
+                                  double mean_pitch, AeroelasticState state, AeroelasticState rest,
+                                  HarmonicFactors factors, const CycleAnalysisOptions& options)
+    : base_(base),
+      section_(section),
+      mean_pitch_(mean_pitch),
+      state_(std::move(state)),
+      rest_(std::move(rest)),
+      factors_(std::move(factors)),
+      options_(options),
+      time_(harmonics_of(state_)),
+      changed_section_(section) {}
+
+template <int Dim>
+CycleCondition CycleAnalysis<Dim>::condition(const StructureModel& model) const {
+  CycleCondition condition(energy_condition(model, options_.energy));
+  if (options_.reduced_velocity) {
+    condition.by_energy = 0.0;
+    condition.by_speed = 1.0;
+    condition.reduced_velocity = *options_.reduced_velocity;
+  }
+  return condition;
+}
+
+template <int Dim>
+void CycleAnalysis<Dim>::solve(const Parameters<Dim>& change) {
+  functional_.reset();
+  problem_.reset();
+  at_ = std::make_unique<ChangedDomain<Dim>>(base_, change, time_);
+  changed_section_ = moved(section_, change.scalars);
+  const StructureModel model = structure_model(changed_section_);
+  SectionKinematics kinematics;
+  kinematics.flow_speed = at_->model.freestream.speed();
+  kinematics.mean_pitch = mean_pitch_;
+  problem_ = std::make_unique<AeroelasticProblem<Dim>>(at_->flow, StructuralEquation(model, time_), kinematics,
+                                                       condition(model), rest_, factors_, options_.tolerances);
+  u_ = problem_->unknowns(state_);
+  const NewtonResult solved = newton(base_.comm, *problem_, u_, options_.newton);
+  if (solved.status != SolveStatus::converged)
+    throw SolveFailure(solved.status, "the cycle has not converged");
+  state_ = problem_->state(u_);
+  problem_->linearize(u_);
+  if (!problem_->is_factored()) problem_->refactor();
+  make_functional();
+}
+
+template <int Dim>
+void CycleAnalysis<Dim>::choose(CycleQuantity quantity) {
+  options_.quantity = quantity;
+  if (problem_) make_functional();
+}
+
+template <int Dim>
+void CycleAnalysis<Dim>::make_functional() {
+  functional_ = std::make_unique<CycleFunctional<Dim>>(*problem_, changed_section_, state_, options_.quantity);
+}
+
+template <int Dim>
+ParameterPoint<Dim> CycleAnalysis<Dim>::point() const {
+  return {at_->mesh, base_.nodes, at_->flow, functional_->point(), base_.turns_about_elastic_axis};
+}
+
+template class CycleAnalysis<2>;
+template class CycleAnalysis<3>;
+
+}  // namespace wingbeat

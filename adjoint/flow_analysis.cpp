@@ -1,0 +1,58 @@
+#include "adjoint/flow_analysis.hpp"
+
+#include <cmath>
+
+namespace wingbeat {
+
+template <int Dim>
+FlowAnalysis<Dim>::FlowAnalysis(const DomainBase<Dim>& base, const TimeSpectral& time, ForcedMotion motion,
+                                double reduced_frequency, std::vector<double> w, HarmonicFactors factors,
+                                FlowAnalysisOptions options)
+    : base_(base),
+      time_(time),
+      motion_(std::move(motion)),
+      reduced_frequency_(reduced_frequency),
+      w_(std::move(w)),
+      factors_(std::move(factors)),
+      options_(std::move(options)) {}
+
+template <int Dim>
+void FlowAnalysis<Dim>::solve(const Parameters<Dim>& change) {
+  functional_.reset();
+  problem_.reset();
+  at_ = std::make_unique<ChangedDomain<Dim>>(base_, change, time_);
+  kappa_ = 2.0 * reduced_frequency_ * at_->model.freestream.speed();
+  motions_ = motions_of(motion_, time_, kappa_);
+  problem_ = std::make_unique<ForcedFlowProblem<Dim>>(at_->flow, motions_, kappa_, factors_, options_.tolerance);
+  const NewtonResult solved = newton(base_.comm, *problem_, w_, options_.newton);
+  if (solved.status != SolveStatus::converged)
+    throw SolveFailure(solved.status, "the flow has not converged");
+  at_->flow.linearize(w_, motions_, kappa_);
+  if (!problem_->is_factored()) problem_->refactor();
+  make_functional();
+}
+
+template <int Dim>
+void FlowAnalysis<Dim>::choose(const LoadQuantity& quantity) {
+  options_.quantity = quantity;
+  if (problem_) make_functional();
+}
+
+template <int Dim>
+void FlowAnalysis<Dim>::make_functional() {
+  const auto& freestream = at_->model.freestream;
+  const double angle = std::atan2(freestream.angle_sine, freestream.angle_cosine);
+  functional_ = std::make_unique<FlowFunctional<Dim>>(
+      at_->flow, *problem_, FlowPoint{w_, motions_, kappa_},
+      load_functional(options_.quantity, time_, angle, motions_, at_->domain.axis(), options_.moment_reference));
+}
+
+template <int Dim>
+ParameterPoint<Dim> FlowAnalysis<Dim>::point() const {
+  return {at_->mesh, base_.nodes, at_->flow, {w_, motions_, kappa_}, base_.turns_about_elastic_axis};
+}
+
+template class FlowAnalysis<2>;
+template class FlowAnalysis<3>;
+
+}  // namespace wingbeat

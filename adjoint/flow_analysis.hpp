@@ -1,0 +1,56 @@
+#pragma once
+
+#include <optional>
+
+#include "adjoint/analysis.hpp"
+#include "adjoint/changed_domain.hpp"
+#include "adjoint/flow_functional.hpp"
+#include "flow/forced_flow_problem.hpp"
+#include "flow/forced_motion.hpp"
+
+namespace wingbeat {
+
+// A flow about a given motion: steady where the time has one instance.
+struct FlowAnalysisOptions {
+  LoadQuantity quantity;
+  std::optional<Vec<double, 2>> moment_reference;  // chords; the axis if not given
+  double tolerance = 1e-11;                        // on |R| relative to that of uniform flow
+  NewtonOptions newton{};
+};
+
+// Steady flow, or periodic flow about a prescribed motion, and a number of its loads.
+template <int Dim>
+class FlowAnalysis final : public Analysis<Dim> {
+ public:
+  // `w`: the base's solution, `factors`: of matrices near its Jacobian's. The reduced frequency k is kept
+  // as the free stream changes.
+  FlowAnalysis(const DomainBase<Dim>& base, const TimeSpectral& time, ForcedMotion motion,
+               double reduced_frequency, std::vector<double> w, HarmonicFactors factors,
+               FlowAnalysisOptions options);
+
+  void solve(const Parameters<Dim>& change) override;
+  const Functional<Dim>& functional() const override { return *functional_; }
+  ParameterPoint<Dim> point() const override;
+  void refactor() override { problem_->refactor(); }
+  // Another number of the same loads from now on.
+  void choose(const LoadQuantity& quantity);
+
+ private:
+  void make_functional();
+
+  DomainBase<Dim> base_;
+  TimeSpectral time_;
+  ForcedMotion motion_;
+  double reduced_frequency_;
+  std::vector<double> w_;
+  HarmonicFactors factors_;
+  FlowAnalysisOptions options_;
+  // Of the last solution.
+  std::unique_ptr<ChangedDomain<Dim>> at_;
+  std::vector<MotionState> motions_;
+  double kappa_ = 0.0;
+  std::unique_ptr<ForcedFlowProblem<Dim>> problem_;
+  std::unique_ptr<FlowFunctional<Dim>> functional_;
+};
+
+}  // namespace wingbeat
