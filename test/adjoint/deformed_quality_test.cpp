@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <mpi.h>
 
 #include "adjoint/hicks_henne.hpp"
 #include "adjoint/mesh_deformation.hpp"

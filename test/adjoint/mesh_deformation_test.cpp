@@ -1,7 +1,6 @@
 #include "adjoint/mesh_deformation.hpp"
 
 #include <gtest/gtest.h>
-#include <mpi.h>
 
 #include <algorithm>
 #include <cmath>
