@@ -159,6 +159,38 @@ TEST(MeshDeformation, DeformedMeshIsTheSameBitForBitOnAnyNumberOfRanksAndBlocks)
   }
 }
 
+// The same mesh with its zones, and so its nodes, in the opposite order.
+MultiblockMesh<2> with_zones_reversed(MultiblockMesh<2> mesh) {
+  std::ranges::reverse(mesh.zones);
+  for (Zone<2>& zone : mesh.zones)
+    for (Interface<2>& join : zone.interfaces)
+      join.donor = static_cast<int>(mesh.zones.size()) - 1 - join.donor;
+  return mesh;
+}
+
+// Where each node is and how far it moves, in the order of places.
+std::vector<std::array<double, 4>> moves(const SectionMesh& m, DeformationMethod method,
+                                         const Vectors& wall) {
+  const Vectors positions = unique_positions(m.mesh, m.numbers);
+  const Vectors moved = deformation_of(m, method).displacement(wall, m.all_nodes());
+  std::vector<std::array<double, 4>> all;
+  for (std::size_t n = 0; n < moved.size(); ++n)
+    all.push_back({positions[n][0], positions[n][1], moved[n][0], moved[n][1]});
+  std::ranges::sort(all);
+  return all;
+}
+
+// Displacements of the size of the section: nothing is lost when they are added to positions.
+TEST(MeshDeformation, DisplacementsAreTheSameBitForBitInAnyOrderOfZones) {
+  Scatter scatter;
+  const Vectors wall = scatter.vectors(section().wall.size());
+  const SectionMesh in_blocks("naca2412", 64, 24, 7), reversed(with_zones_reversed(in_blocks.mesh));
+  for (const auto method : both_methods) {
+    EXPECT_EQ(moves(in_blocks, method, wall), moves(section(), method, wall));
+    EXPECT_EQ(moves(reversed, method, wall), moves(section(), method, wall));
+  }
+}
+
 TEST(MeshDeformation, NoDisplacementLeavesTheMesh) {
   for (const auto method : both_methods) {
     const MeshDeformation deformation = deformation_of(section(), method);
