@@ -9,10 +9,6 @@
 namespace wingbeat {
 namespace {
 
-// alpha of the weights: within about alpha^(5/2) L of the wall the fifth power prevails.
-constexpr double near_share = 0.25;
-constexpr double near_share_5 = near_share * near_share * near_share * near_share * near_share;
-
 // One value a lane: entry first + lane of `entries`, the last one again beyond their end.
 template <class F>
 Pack gathered(std::span<const std::size_t> entries, std::size_t first, F&& value) {
@@ -42,7 +38,7 @@ T InverseDistance<Dim>::weight(const Vec<T, Dim>& x, std::size_t k) const {
     square += distance * distance;
   }
   const T near = length_squared_ / square;
-  return boundary_.areas[k] * near * sqrt(near) * (1.0 + near_share_5 * near);
+  return boundary_.areas[k] * near * sqrt(near) * (1.0 + near);
 }
 
 // Which of `nodes` are not on the boundary.

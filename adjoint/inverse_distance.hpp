@@ -14,7 +14,7 @@ namespace wingbeat {
 template <int Dim>
 class InverseDistance {
  public:
-  // `positions`: of all nodes, [number]; `length`: L of the weights, a chord.
+  // `positions`: of all nodes, [number]; `length`: L of the weights, up to which the higher power prevails.
   InverseDistance(std::vector<Vec<double, Dim>> positions, BoundaryNodes<Dim> boundary, double length);
 
   // Displacement of `nodes`, from that of the boundary's moving nodes.

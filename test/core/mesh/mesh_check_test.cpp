@@ -55,6 +55,20 @@ TEST(Validate, NamesACellOfZeroVolume) {
   expect_contains(faults_of(mesh), "zone 'block-1', cell (1, 1): zero volume");
 }
 
+// What is not a matter of cells and nodes is left to validate().
+TEST(VolumeFaults, AreThoseOfCellsAndNodesAlone) {
+  MultiblockMesh<2> mesh = row_of_blocks<2>(2, {4, 4});
+  mesh.zones[0].patches.clear();
+  EXPECT_TRUE(volume_faults(mesh).empty());
+  mesh.zones[1].nodes({2, 1})[1] += 10.0;
+  ASSERT_EQ(volume_faults(mesh).size(), 1U);
+  expect_contains(volume_faults(mesh).front(), "zone 'block-2', cell (");
+  expect_contains(volume_faults(mesh).front(), "negative volume -");
+  mesh.zones[0].nodes({2, 1})[1] = std::numeric_limits<double>::infinity();
+  ASSERT_EQ(volume_faults(mesh).size(), 2U);
+  expect_contains(volume_faults(mesh).front(), "zone 'block-1', node (3, 2): coordinates are not finite");
+}
+
 TEST(Validate, TellsALeftHandedBlock) {
   const MultiblockMesh<2> mesh = reoriented(row_of_blocks<2>(2, {3, 2}), 1, {{1, 0}, {1, 1}});
   const std::string message = faults_of(mesh);
