@@ -10,7 +10,7 @@ namespace wingbeat {
 struct CycleAnalysisOptions {
   CycleQuantity quantity = CycleQuantity::speed;
   double energy = 1e-6;                    // E_0: given, or near that of the cycle where its speed is given
-  std::optional<double> reduced_velocity;  // the speed where that is given
+  std::optional<double> reduced_velocity{};  // the speed where that is given
   AeroelasticTolerances tolerances{};
   NewtonOptions newton{};
 };
