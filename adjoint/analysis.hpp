@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "adjoint/adjoint.hpp"
 
@@ -20,6 +21,11 @@ class Analysis {
   // Makes new factors of the preconditioner at the last solution. Collective.
   virtual void refactor() = 0;
 };
+
+// Newton's method from u to the problem's own tolerances or, where round-off keeps it from them, to within
+// `slack` times these; throws SolveFailure saying `what` has not converged. Collective.
+void solve_near_roundoff(const Comm& comm, Problem& problem, std::span<double> u, const NewtonOptions& options,
+                         double slack, const std::string& what);
 
 // No change.
 template <int Dim>

@@ -1,7 +1,5 @@
 #include "adjoint/cycle_analysis.hpp"
 
-#include "core/io/error.hpp"
-
 namespace wingbeat {
 namespace {
 
@@ -60,9 +58,7 @@ void CycleAnalysis<Dim>::solve(const Parameters<Dim>& change) {
   problem_ = std::make_unique<AeroelasticProblem<Dim>>(at_->flow, StructuralEquation(model, time_), kinematics,
                                                        condition(model), rest_, factors_, options_.tolerances);
   u_ = problem_->unknowns(state_);
-  const NewtonResult solved = newton(base_.comm, *problem_, u_, options_.newton);
-  if (solved.status != SolveStatus::converged)
-    throw SolveFailure(solved.status, "the cycle has not converged");
+  solve_near_roundoff(base_.comm, *problem_, u_, options_.newton, options_.slack, "the cycle");
   state_ = problem_->state(u_);
   problem_->linearize(u_);
   if (!problem_->is_factored()) problem_->refactor();

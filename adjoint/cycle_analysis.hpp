@@ -11,7 +11,8 @@ struct CycleAnalysisOptions {
   CycleQuantity quantity = CycleQuantity::speed;
   double energy = 1e-6;                    // E_0: given, or near that of the cycle where its speed is given
   std::optional<double> reduced_velocity{};  // the speed where that is given
-  AeroelasticTolerances tolerances{};
+  AeroelasticTolerances tolerances{1e-12, 1e-12};  // aimed at
+  double slack = 100.0;                            // times the tolerances are accepted
   NewtonOptions newton{};
 };
 

@@ -24,17 +24,15 @@ void FlowAnalysis<Dim>::solve(const Parameters<Dim>& change) {
   kappa_ = 2.0 * reduced_frequency_ * at_->model.freestream.speed();
   motions_ = motions_of(motion_, time_, kappa_);
   problem_ = std::make_unique<ForcedFlowProblem<Dim>>(at_->flow, motions_, kappa_, factors_, options_.tolerance);
-  const NewtonResult solved = newton(base_.comm, *problem_, w_, options_.newton);
-  if (solved.status != SolveStatus::converged)
-    throw SolveFailure(solved.status, "the flow has not converged");
+  solve_near_roundoff(base_.comm, *problem_, w_, options_.newton, options_.slack, "the flow");
   at_->flow.linearize(w_, motions_, kappa_);
   if (!problem_->is_factored()) problem_->refactor();
   make_functional();
 }
 
 template <int Dim>
-void FlowAnalysis<Dim>::choose(const LoadQuantity& quantity) {
-  options_.quantity = quantity;
+void FlowAnalysis<Dim>::choose(std::vector<WeightedLoad> objective) {
+  options_.objective = std::move(objective);
   if (problem_) make_functional();
 }
 
@@ -42,9 +40,13 @@ template <int Dim>
 void FlowAnalysis<Dim>::make_functional() {
   const auto& freestream = at_->model.freestream;
   const double angle = std::atan2(freestream.angle_sine, freestream.angle_cosine);
-  functional_ = std::make_unique<FlowFunctional<Dim>>(
-      at_->flow, *problem_, FlowPoint{w_, motions_, kappa_},
-      load_functional(options_.quantity, time_, angle, motions_, at_->domain.axis(), options_.moment_reference));
+  LoadFunctional sum;
+  for (const auto& [weight, quantity] : options_.objective)
+    add_scaled(weight,
+               load_functional(quantity, time_, angle, motions_, at_->domain.axis(), options_.moment_reference),
+               sum);
+  functional_ = std::make_unique<FlowFunctional<Dim>>(at_->flow, *problem_, FlowPoint{w_, motions_, kappa_},
+                                                      std::move(sum));
 }
 
 template <int Dim>

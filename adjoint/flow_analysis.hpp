@@ -10,15 +10,21 @@
 
 namespace wingbeat {
 
-// A flow about a given motion: steady where the time has one instance.
-struct FlowAnalysisOptions {
+// A sum of numbers of the loads.
+struct WeightedLoad {
+  double weight = 1.0;
   LoadQuantity quantity;
-  std::optional<Vec<double, 2>> moment_reference;  // chords; the axis if not given
-  double tolerance = 1e-11;                        // on |R| relative to that of uniform flow
+};
+
+struct FlowAnalysisOptions {
+  std::vector<WeightedLoad> objective;
+  std::optional<Vec<double, 2>> moment_reference{};  // chords; the axis if not given
+  double tolerance = 1e-12;                          // aimed at: |R| relative to that of uniform flow
+  double slack = 100.0;                              // times the tolerance are accepted
   NewtonOptions newton{};
 };
 
-// Steady flow, or periodic flow about a prescribed motion, and a number of its loads.
+// Steady flow (one instance), or periodic flow about a prescribed motion, and a number of its loads.
 template <int Dim>
 class FlowAnalysis final : public Analysis<Dim> {
  public:
@@ -33,7 +39,7 @@ class FlowAnalysis final : public Analysis<Dim> {
   ParameterPoint<Dim> point() const override;
   void refactor() override { problem_->refactor(); }
   // Another number of the same loads from now on.
-  void choose(const LoadQuantity& quantity);
+  void choose(std::vector<WeightedLoad> objective);
 
  private:
   void make_functional();

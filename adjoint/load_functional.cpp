@@ -27,6 +27,20 @@ double load_dot(std::span<const Loads<double>> a, std::span<const Loads<double>>
   return sum;
 }
 
+void add_scaled(double scale, const LoadFunctional& functional, LoadFunctional& sum) {
+  const auto add = [scale](const std::vector<Loads<double>>& from, std::vector<Loads<double>>& to) {
+    to.resize(from.size());
+    for (std::size_t n = 0; n < from.size(); ++n) {
+      to[n].force_x += scale * from[n].force_x;
+      to[n].force_y += scale * from[n].force_y;
+      to[n].moment += scale * from[n].moment;
+    }
+  };
+  add(functional.weights, sum.weights);
+  add(functional.by_angle, sum.by_angle);
+  for (std::size_t k = 0; k < 2; ++k) add(functional.by_axis[k], sum.by_axis[k]);
+}
+
 double LoadFunctional::value(std::span<const Loads<double>> loads) const { return load_dot(weights, loads); }
 
 Loads<double> coefficient_weights(LoadCoefficient coefficient, double angle, const Vec<double, 2>& arm) {

@@ -35,6 +35,9 @@ LoadFunctional load_functional(const LoadQuantity& quantity, const TimeSpectral&
                                std::span<const MotionState> motions, const Vec<double, 2>& axis,
                                const std::optional<Vec<double, 2>>& reference);
 
+// sum += scale functional; an empty sum is zero.
+void add_scaled(double scale, const LoadFunctional& functional, LoadFunctional& sum);
+
 // a . b over all instances.
 double load_dot(std::span<const Loads<double>> a, std::span<const Loads<double>> b);
 

@@ -32,8 +32,7 @@ struct CycleCase {
     return {c.flow_case.comm, c.flow_case.local, shape.nodes(), c.flow_case.model, {{{0.2, 0.0}}}, true};
   }
 
-  CycleAnalysis<2> analysis(CycleAnalysisOptions options) const {
-    options.tolerances = {1e-12, 1e-12};
+  CycleAnalysis<2> analysis(const CycleAnalysisOptions& options) const {
     return {base,  paper_section, 0.0, flutter.state, {steady, std::vector<double>(4, 0.0), 0.0, 1.0}, c.factors,
             options};
   }
@@ -55,7 +54,7 @@ struct LoadCase {
   }
   FlowAnalysis<2> analysis(const LoadQuantity& quantity, ForcedMotion motion = {}, double k = 0.0,
                            std::optional<Vec<double, 2>> reference = {}) const {
-    return {base, c.time, std::move(motion), k, w, c.factors, {quantity, reference}};
+    return {base, c.time, std::move(motion), k, w, c.factors, {{{1.0, quantity}}, reference}};
   }
 };
 

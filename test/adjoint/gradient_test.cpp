@@ -36,7 +36,7 @@ void expect_gradient_is_difference(Analysis<2>& analysis, const ShapeVariables& 
                                    const std::string& name) {
   analysis.solve(no_change<2>(shape.nodes()));
   const Parameters<2> gradient = adjoint_gradient(analysis);
-  for (const auto& [shape_size, scalar_size, h] : {std::tuple{1.0, 0.0, 4e-4}, {0.0, 1.0, 4e-4}}) {
+  for (const auto& [shape_size, scalar_size, h] : {std::tuple{1.0, 0.0, 2e-4}, {0.0, 1.0, 2e-4}}) {
     const double expected = difference(analysis, shape, shape_size, scalar_size, h);
     const double found = parameter_dot(Comm(), gradient, direction(shape, shape_size, scalar_size));
     EXPECT_NEAR(found, expected, tolerance * std::abs(expected))
@@ -101,29 +101,11 @@ TEST(Gradient, AdjointIsTangentForHarmonicsOfForcedMotion) {
                                       {LoadCoefficient::lift, 1, false},
                                       {LoadCoefficient::lift, 1, true},
                                       {LoadCoefficient::moment, 1, true}}) {
-    analysis.choose(quantity);
+    analysis.choose({{1.0, quantity}});
     expect_adjoint_is_tangent(analysis, c.shape, "harmonic " + std::to_string(quantity.harmonic));
   }
 }
 
-TEST(Gradient, DISABLED_Study) {
-  const double energy = 1e-4;
-  const CycleCase c(small_mesh(), 1, energy);
-  CycleAnalysis<2> analysis = c.analysis({.energy = energy});
-  analysis.solve(no_change<2>(c.shape.nodes()));
-  const Parameters<2> gradient = adjoint_gradient(analysis);
-  const double found = parameter_dot(Comm(), gradient, direction(c.shape, 1.0, 0.0));
-  for (double h : {1e-3, 4e-4, 2e-4, 1e-4, 5e-5, 2e-5}) {
-  const auto value = [&](double step) {
-    analysis.solve(direction(c.shape, step, 0.0));
-    return analysis.functional().value();
-  };
-  const auto central = [&](double step) { return (value(step) - value(-step)) / (2.0 * step); };
-  const double vb = value(0.0); analysis.solve(direction(c.shape, 0.0, 0.0)); const double f2 = parameter_dot(Comm(), adjoint_gradient(analysis), direction(c.shape, 1.0, 0.0)); printf("%.12f %.3e ", vb, f2/found-1);
-  const double a = central(h), b = central(h/2);
-  printf("h %g  central %.3e  half %.3e extrapolated %.3e\n", h, a/found-1, b/found-1, (4*b-a)/3/found-1);
-  }
-}
 TEST(Gradient, AgreesWithDifferences) {
   {
     const LoadCase c(small_mesh(), 0.8, 0);
