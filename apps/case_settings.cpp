@@ -20,6 +20,7 @@ void CaseSettings::describe(SettingRegistry& registry) {
   registry.add_section("march", "A time-accurate march of flow and section.", march);
   registry.add_section("pk", "The table of frequency and damping against reduced velocity.", pk);
   registry.add_section("design", "Shape variables and how the mesh follows them.", design);
+  registry.add_section("gradient", "What is differentiated, and with respect to what.", gradient);
   registry.add_section("solver", "How the equations are solved, and how far.", solver);
   registry.add_section("pseudo_time", "Runge-Kutta multigrid cycles of the flow.", pseudo_time);
   registry.add_section("staggered", "How flow and structure take turns in the staggered method.", staggered);

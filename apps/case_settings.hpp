@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "adjoint/design_settings.hpp"
+#include "adjoint/gradient_settings.hpp"
 #include "core/algebra/solver_settings.hpp"
 #include "core/io/settings.hpp"
 #include "core/mesh/mesh_settings.hpp"
@@ -38,6 +39,7 @@ struct CaseSettings {
   MarchSettings march;
   PkSettings pk;
   DesignSettings design;
+  GradientSettings gradient;
   SolverSettings solver;
   PseudoTimeSettings pseudo_time;
   StaggeredSettings staggered;

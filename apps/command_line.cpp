@@ -59,6 +59,9 @@ void add_case_verb(CLI::App& app, const Verb& verb, CommandLine& line) {
   if (verb.name == "march")
     command->add_flag("--find-flutter", line.find_flutter,
                       "march at several speeds for that at which motion neither grows nor decays");
+  if (verb.name == "gradient")
+    command->add_flag("--check", line.check,
+                      "compare the gradient with a tangent solve and with differences of whole solutions");
   if (verb.name == "partition")
     command->add_option("--ranks", line.ranks, "ranks to plan for (default: those that run)")
         ->option_text("N")

@@ -19,6 +19,7 @@ struct CommandLine {
   bool dry_run = false;
   bool markdown = false;
   bool find_flutter = false;
+  bool check = false;
 
   std::string answer;  // what --help or --version asked for; there is nothing to run then
 };

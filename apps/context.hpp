@@ -21,6 +21,7 @@ struct Context {
   std::filesystem::path output;                  // folder of the results; exists
   std::optional<std::filesystem::path> restart;  // solution to start from
   bool find_flutter;                             // of a march: --find-flutter
+  bool check;                                    // of a gradient: --check
   int planned_ranks;                             // of a partition: --ranks, or those that run
   Log& log;                                      // rank 0 speaks
   Timer& timer;

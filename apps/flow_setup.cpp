@@ -22,9 +22,9 @@ Scheme flow_scheme(const FlowSettings& settings) {
   return JstScheme{settings.jst_k2, settings.jst_k4, settings.jst_smoothing};
 }
 
-bool has_structure(const CaseSettings& settings) { return settings.structure.mass_ratio > 0.0; }
-
 }  // namespace
+
+bool has_structure(const CaseSettings& settings) { return settings.structure.mass_ratio > 0.0; }
 
 template <int Dim>
 FlowModel<Dim, double> flow_model(const FlowSettings& settings) {

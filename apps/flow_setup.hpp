@@ -12,6 +12,8 @@ namespace wingbeat {
 template <int Dim>
 FlowModel<Dim, double> flow_model(const FlowSettings& settings);
 TypicalSection typical_section(const StructureSettings& settings);
+// Whether the case describes a structure.
+bool has_structure(const CaseSettings& settings);
 SectionKinematics section_kinematics(const CaseSettings& settings);
 
 // The axis the section turns about, chords from the leading edge: the elastic axis where the case

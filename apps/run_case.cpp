@@ -126,6 +126,7 @@ int execute(const Comm& comm, const CommandLine& command, Result& result, Timer&
                   .output = command.output,
                   .restart = command.restart,
                   .find_flutter = command.find_flutter,
+                  .check = command.check,
                   .planned_ranks = command.ranks.value_or(comm.size()),
                   .log = log,
                   .timer = timer,

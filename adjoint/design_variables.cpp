@@ -1,0 +1,62 @@
+#include "adjoint/design_variables.hpp"
+
+#include "core/io/error.hpp"
+
+namespace wingbeat {
+namespace {
+
+// A hundredth to a tenth of what the parameter may be.
+double scale_of(Scalar scalar) {
+  switch (scalar) {
+    case Scalar::mach:
+      return 0.01;
+    case Scalar::angle_of_attack:
+      return 0.2;
+    case Scalar::mass_ratio:
+      return 10.0;
+    default:
+      return 0.1;
+  }
+}
+
+}  // namespace
+
+DesignVariables::DesignVariables(const GradientSettings& settings, const ShapeVariables& shape, double bound)
+    : shape_(shape) {
+  if (settings.has("bumps")) {
+    bump_count_ = static_cast<std::size_t>(shape.bumps().variables());
+    for (std::size_t i = 0; i < bump_count_; ++i) {
+      names_.push_back("bump " + std::to_string(i + 1));
+      scales_.push_back(bound);
+    }
+  }
+  if (settings.has("mach")) scalars_.push_back(Scalar::mach);
+  if (settings.has("angle_of_attack")) scalars_.push_back(Scalar::angle_of_attack);
+  if (settings.has("structure"))
+    scalars_.insert(scalars_.end(), {Scalar::elastic_axis, Scalar::static_unbalance, Scalar::gyration_radius_squared,
+                                     Scalar::frequency_ratio, Scalar::mass_ratio});
+  for (const Scalar scalar : scalars_) {
+    names_.push_back(scalar_names[static_cast<std::size_t>(scalar)]);
+    scales_.push_back(scale_of(scalar));
+  }
+}
+
+Parameters<2> DesignVariables::change(std::span<const double> variables) const {
+  ensure(variables.size() == size(), "design variables of a wrong number");
+  Parameters<2> change;
+  if (bump_count_ > 0)
+    change.nodes = shape_.node_change(variables.first(bump_count_));
+  else
+    change.nodes.resize(shape_.nodes().numbers.size());
+  for (std::size_t k = 0; k < scalars_.size(); ++k) change[scalars_[k]] = variables[bump_count_ + k];
+  return change;
+}
+
+std::vector<double> DesignVariables::derivatives(const Comm& comm, const Parameters<2>& sensitivity) const {
+  std::vector<double> result;
+  if (bump_count_ > 0) result = shape_.amplitude_gradient(shape_.wall_sensitivity(comm, sensitivity.nodes));
+  for (const Scalar scalar : scalars_) result.push_back(sensitivity[scalar]);
+  return result;
+}
+
+}  // namespace wingbeat

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "adjoint/gradient_settings.hpp"
+#include "adjoint/parameters.hpp"
+#include "adjoint/shape_variables.hpp"
+
+namespace wingbeat {
+
+// A list of variables that a gradient is taken with respect to: amplitudes of bumps and single numbers.
+class DesignVariables {
+ public:
+  // `shape` is kept by reference; `bound`: the scale of a bump, chords.
+  DesignVariables(const GradientSettings& settings, const ShapeVariables& shape, double bound);
+
+  std::size_t size() const { return names_.size(); }
+  const std::string& name(std::size_t i) const { return names_[i]; }
+  // What counts as a change of one variable that is neither small nor large.
+  double scale(std::size_t i) const { return scales_[i]; }
+
+  // The change of all parameters that changes of the variables make.
+  Parameters<2> change(std::span<const double> variables) const;
+  // The transpose: derivatives with respect to the variables. Collective.
+  std::vector<double> derivatives(const Comm& comm, const Parameters<2>& sensitivity) const;
+
+ private:
+  const ShapeVariables& shape_;
+  std::size_t bump_count_ = 0;
+  std::vector<Scalar> scalars_;  // after the bumps
+  std::vector<std::string> names_;
+  std::vector<double> scales_;
+};
+
+}  // namespace wingbeat

@@ -1,0 +1,110 @@
+#include "adjoint/gradient_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "core/algebra/krylov_kernels.hpp"
+
+namespace wingbeat {
+namespace {
+
+// Numbers in [-1, 1], the same in every run.
+std::vector<double> random_numbers(std::size_t count, unsigned seed) {
+  std::mt19937_64 generator(seed);
+  std::vector<double> numbers(count);
+  for (double& value : numbers) value = std::uniform_real_distribution<double>(-1.0, 1.0)(generator);
+  return numbers;
+}
+
+// The objective at other values of the variables.
+class Values {
+ public:
+  Values(Objective<2>& objective, const DesignVariables& variables, const std::function<void()>& on_solution)
+      : objective_(objective), variables_(variables), on_solution_(on_solution) {}
+
+  double at(const std::vector<double>& direction, double step) {
+    std::vector<double> x = direction;
+    for (double& value : x) value *= step;
+    objective_.solve(variables_.change(x));
+    if (on_solution_) on_solution_();
+    return objective_.value();
+  }
+  double central(const std::vector<double>& direction, double step) {
+    const double above = at(direction, step);
+    return (above - at(direction, -step)) / (2.0 * step);
+  }
+  // Of fourth order: the terms of second order of two steps cancel.
+  double extrapolated(const std::vector<double>& direction, double step) {
+    const double half = central(direction, 0.5 * step);
+    return (4.0 * half - central(direction, step)) / 3.0;
+  }
+
+ private:
+  Objective<2>& objective_;
+  const DesignVariables& variables_;
+  const std::function<void()>& on_solution_;
+};
+
+double greatest(std::span<const double> x) {
+  double size = 0.0;
+  for (double value : x) size = std::max(size, std::abs(value));
+  return size;
+}
+
+}  // namespace
+
+double transpose_defect(const Comm& comm, const LinearOperator<double>& op) {
+  const std::size_t size = op.local_size();
+  const auto seed = static_cast<unsigned>(2 * comm.rank());
+  const std::vector<double> x = random_numbers(size, 11 + seed), v = random_numbers(size, 12 + seed);
+  std::vector<double> ax(size), atv(size);
+  op.apply(x, ax);
+  op.apply_transpose(v, atv);
+  const double defect = comm.sum(local_dot(v, ax)) - comm.sum(local_dot(atv, x));
+  return std::abs(defect) / (global_norm<double>(comm, v) * global_norm<double>(comm, ax));
+}
+
+GradientCheck check_gradient(const Comm& comm, Objective<2>& objective, const DesignVariables& variables,
+                             const std::vector<double>& gradient, const GradientCheckOptions& options,
+                             const std::function<void()>& on_solution) {
+  GradientCheck check;
+  for (const auto& term : objective.terms)
+    check.transpose = std::max(
+        check.transpose, transpose_defect(comm, term.analysis->functional().problem().jacobian()));
+
+  std::vector<double> direction = random_numbers(variables.size(), 1), scaled = gradient;
+  for (std::size_t i = 0; i < variables.size(); ++i) {
+    direction[i] *= variables.scale(i);
+    scaled[i] *= variables.scale(i);
+  }
+  const auto exact = weighted_sum(term_derivatives(objective, solve_adjoints(objective, options.gmres)),
+                                  objective.weights());
+  const double by_adjoint = local_dot(variables.derivatives(comm, exact), direction);
+  const double by_tangent =
+      objective_derivative(objective, variables.change(direction), options.gmres).value;
+  check.tangent = std::abs(by_adjoint - by_tangent) / std::abs(by_tangent);
+
+  Values values(objective, variables, on_solution);
+  double best = std::numeric_limits<double>::infinity();
+  for (double step = 5.0 * options.difference_step; step > 0.004 * options.difference_step; step /= 5.0) {
+    const double difference = values.central(direction, step);
+    check.steps.push_back({step, difference, std::abs(difference - by_adjoint) / std::abs(by_adjoint)});
+    best = std::min(best, check.steps.back().relative_error);
+  }
+  check.finite_difference = best;
+  if (variables.size() <= static_cast<std::size_t>(options.max_differences)) {
+    check.finite_difference = 0.0;
+    for (std::size_t i = 0; i < variables.size(); ++i) {
+      std::vector<double> one(variables.size(), 0.0);
+      one[i] = 1.0;
+      check.differences.push_back(values.extrapolated(one, options.difference_step * variables.scale(i)));
+      const double defect = std::abs(check.differences[i] - gradient[i]) * variables.scale(i);
+      check.finite_difference = std::max(check.finite_difference, defect / greatest(scaled));
+    }
+  }
+  values.at(direction, 0.0);
+  return check;
+}
+
+}  // namespace wingbeat
