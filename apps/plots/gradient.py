@@ -47,7 +47,7 @@ def title_of(folder, subject):
     """`subject` of the objective, with its value where it is known."""
     name, symbol = objective(folder)
     value = gradient_of(folder).get("value")
-    return f"{subject} of the {name}, ${symbol}$" + (f" = {value:.5g}" if isinstance(value, (int, float)) else "")
+    return f"{subject} of the {name}, ${symbol.strip('()')}$" + (f" = {value:.5g}" if isinstance(value, (int, float)) else "")
 
 
 def read_parameters(folder):

@@ -12,7 +12,7 @@ CAPTION = ("Gradient by the adjoint (blue) and by finite differences (orange) wh
            "amplitude of each bump, outward positive, and by other parameters, each in its own unit.")
 MOST_BARS = 60
 ROW = 0.27  # inches of a line of the list
-LIST_COLUMNS = [(0.02, "parameter", "left"), (0.42, "", "left"), (0.66, "adjoint", "right"),
+LIST_COLUMNS = [(0.02, "parameter", "left"), (0.34, "", "left"), (0.66, "adjoint", "right"),
                 (0.83, "difference", "right"), (0.98, "apart", "right")]
 
 
