@@ -13,6 +13,10 @@ Each figure is drawn if its file is there:
     surface.csv             instance, phase, block, x, y, x_body, y_body, cp      pressure on the section
     solution.cgns           nodes, Pressure and Mach of every instance            pressure around the section
     history.csv             stage, iteration, flow, structure, phase, energy      convergence
+    bumps.csv, wall.csv     bump, s, x, y                                         crests of the bumps, one of them
+    gradient.csv            name, derivative, difference                          gradient, parameter by parameter
+    wall.csv                s, x, y, normal_x, ..., derivative_normal             sensitivity along the wall
+    step_study.csv          step, difference, relative_error                      differences against the adjoint
     mesh.csv                zone, i, j, x, y                                      mesh near the section
 pitch_rate is in radians; rates and times are in units of omega_alpha.
 result.json and case.toml add flutter points, Mach number and mass ratio.
@@ -30,6 +34,9 @@ try:
     import branch
     import contours
     import convergence
+    import gradient_bars
+    import gradient_bumps
+    import gradient_steps
     import loops
     import march
     import mesh
@@ -39,6 +46,7 @@ try:
     import pressure_compare
     import response
     import speed_convergence
+    import surface_sensitivity
     from read import BadTable, Skipped
     from report import write_comparison_report, write_report
     from runs import runs_in
@@ -48,7 +56,7 @@ except ModuleNotFoundError as missing:
              "install it with: apt-get install python3-matplotlib")
 
 FIGURES = [branch, phase_portrait, march, response, pk, aerodynamic_matrix, loops, pressure, contours,
-           speed_convergence, convergence, mesh]
+           gradient_bars, gradient_bumps, surface_sensitivity, gradient_steps, speed_convergence, convergence, mesh]
 COMPARISONS = [branch, phase_portrait, march, pressure_compare, pk, aerodynamic_matrix]
 
 

@@ -7,6 +7,9 @@ from pathlib import Path
 import numpy as np
 
 
+TEXTS = ("stage", "zone", "block", "mode", "status", "name")  # columns that may hold texts
+
+
 class BadTable(Exception):
     """A file that is there but does not hold what it should."""
 
@@ -40,7 +43,7 @@ def read_table(path, columns):
         except ValueError:
             table[name] = cells
     for name in columns:
-        if isinstance(table[name], list) and name not in ("stage", "zone", "block", "mode", "status"):
+        if isinstance(table[name], list) and name not in TEXTS:
             raise BadTable(f"{path}: column {name} holds something that is not a number")
     return table
 

@@ -6,12 +6,14 @@ import re
 from html import escape
 from pathlib import Path
 
+from gradient import gradient_of, objective
 from page import cell, figure, folded, link, page, section, table
 from read import read_result
 from runs import harmonics_of, march_summaries
 
 NAME = "report.html"
 MOST_ROWS = 500
+MOST_PARAMETERS = 40
 POINT_COLUMNS = [
     ("reduced_velocity", "V"), ("reduced_velocity_error", "error of V"), ("speed_index", "V*"),
     ("frequency_ratio", "ω/ω_α"), ("frequency_error", "error of ω"), ("reduced_frequency", "k"),
@@ -27,6 +29,9 @@ BRANCH_COLUMNS = [("asked", "asked"), ("energy", "E"), ("reduced_velocity", "V")
                   ("frequency_ratio", "ω/ω_α"), ("harmonics", "N_H"), ("highest_harmonic_share", "share of N_H"),
                   ("pitch_amplitude_deg", "pitch, deg"), ("plunge_amplitude", "plunge h/b"), ("slope", "dV/dE"),
                   ("newton_iterations", "Newton"), ("linear_iterations", "Krylov"), ("status", "status")]
+CHECK_COLUMNS = [("tangent", "adjoint - tangent"), ("finite_difference", "adjoint - difference"),
+                 ("transpose", "transposes")]
+PARAMETER_COLUMNS = [("derivative", "derivative"), ("difference", "finite difference")]
 LEGEND = ("V = U/(c ω_α) reduced velocity, V* = U/(b ω_α √μ) speed index, k = ω b/U reduced frequency, E energy in "
           "units of m b² ω_α², times in 1/ω_α")
 
@@ -67,6 +72,19 @@ def pitch_tables(result):
     return table(["harmonic", "C_L", "C_D", "C_M"], rows) if rows else ""
 
 
+def gradient_section(folder):
+    """The objective, how far the checks of the derivatives were apart, and the first derivatives."""
+    found = gradient_of(folder)
+    name, _ = objective(folder)
+    checks = found.get("check") if isinstance(found.get("check"), dict) else {}
+    top = entry_table([("value", "value"), *CHECK_COLUMNS], [(name, {**checks, "value": found.get("value")})])
+    entries = [(entry.get("name"), entry) for entry in found.get("design") or [] if isinstance(entry, dict)]
+    rows = entry_table(PARAMETER_COLUMNS, entries[:MOST_PARAMETERS], "parameter")
+    if len(entries) > MOST_PARAMETERS:
+        rows += f"<p>The first {MOST_PARAMETERS} of {len(entries)} parameters; all are in gradient.csv.</p>"
+    return section(f"Gradient of the {name}", "<p></p>".join(filter(None, (top, rows))))
+
+
 def results_of(folder):
     """The tables of main results of a run."""
     result = read_result(folder)
@@ -83,7 +101,8 @@ def results_of(folder):
     cycles = [{key: number(text) for key, text in row.items()} for row in rows] or cycles
     branch = [(entry.get("point", n), entry) for n, entry in enumerate(cycles, 1)]
     cycle_table = entry_table(BRANCH_COLUMNS, branch, "point")
-    return section("Results", content) + "\n" + section("Branch of limit cycles", cycle_table)
+    return "\n".join([section("Results", content), section("Branch of limit cycles", cycle_table),
+                      gradient_section(folder)])
 
 
 def read_rows(path):

@@ -22,6 +22,11 @@ COLOURS = {
     # methods, where both are on one figure
     "time-spectral": "#1f5fa8",
     "march": "#1c1c1c",
+    "adjoint": "#1f5fa8",
+    "difference": "#c8501e",
+    # surfaces of the section, where both curves may be one
+    "upper": "#1f5fa8",
+    "lower": "#c8501e",
     # marks
     "flutter": "#b3152b",
     "sonic": "#606060",

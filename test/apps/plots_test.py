@@ -14,11 +14,13 @@ from pathlib import Path
 sys.dont_write_bytecode = True
 
 from plots_folder import HAS_H5PY, Folder, png_size, write_solution  # noqa: E402
+from plots_gradient import GradientContents, GradientFolders  # noqa: E402, F401
 
 SKIPPED = 77
 SYSTEM_PYTHON = "/usr/bin/python3"
 FIGURES = ["branch", "phase_portrait", "march", "response", "pk", "aerodynamic_matrix", "loops", "pressure",
-           *(["contours"] if HAS_H5PY else []), "speed_convergence", "convergence", "mesh"]
+           *(["contours"] if HAS_H5PY else []), "gradient-bars", "gradient-bumps", "surface-sensitivity",
+           "gradient-steps", "speed_convergence", "convergence", "mesh"]
 
 
 class Plots(Folder):
@@ -41,7 +43,8 @@ class Plots(Folder):
         self.assertNotIn("url(", text)
         told = " ".join(page.text)
         for fact in ("flutter: synthetic", "a <synthetic> run & its results", "0123456789ab", "2 ranks", "12.5 s",
-                     "2.8859", "3.6859", "limit-cycle", "mass_ratio = 75.0", "stalled"):
+                     "2.8859", "3.6859", "limit-cycle", "mass_ratio = 75.0", "stalled", "flutter speed", "3e-12",
+                     "bump 24", "angle_of_attack_deg"):
             self.assertIn(fact, told)
 
     def test_draws_only_what_is_there(self):
@@ -60,7 +63,8 @@ class Plots(Folder):
 
     def test_names_each_column_that_is_missing(self):
         changes = {"pk.csv": "damping", "lco.csv": "frequency_ratio", "cycles.csv": "pitch_rate", "march.csv": "energy",
-                   "aerodynamic_matrix_forced.csv": "Qha_im"}
+                   "aerodynamic_matrix_forced.csv": "Qha_im", "gradient.csv": "difference", "wall.csv": "normal_x",
+                   "step_study.csv": "relative_error"}
         self.keep("mesh.csv", "aerodynamic_matrix.csv", *changes)
         for name, column in changes.items():
             path = self.folder / name
