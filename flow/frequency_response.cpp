@@ -89,9 +89,11 @@ void FrequencyResponse<Dim>::solve(double kappa, std::span<const Complex> rhs, s
   if (result.status != GmresStatus::converged && result.relative_residual > 100 * gmres_.relative_tolerance)
     throw SolveFailure(
         SolveStatus::stalled,
-        fmt::format("linearized flow at kappa = {:.4g}: GMRES ended with {} at relative residual {:.1e}; "
-                    "raise solver.overlap or use fewer ranks",
-                    kappa, to_string(result.status), result.relative_residual));
+        fmt::format(
+            "linearized flow at kappa = {:.4g}: GMRES ended with {} at relative residual {:.1e}; "
+            "raise solver.overlap, use fewer ranks, or raise solver.ilu_fill where solver.subdomain = "
+            "ilu",
+            kappa, to_string(result.status), result.relative_residual));
 }
 
 template <int Dim>
