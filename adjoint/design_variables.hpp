@@ -16,6 +16,7 @@ class DesignVariables {
   DesignVariables(const GradientSettings& settings, const ShapeVariables& shape, double bound);
 
   std::size_t size() const { return names_.size(); }
+  std::size_t bump_count() const { return bump_count_; }  // they come first
   const std::string& name(std::size_t i) const { return names_[i]; }
   // What counts as a change of one variable that is neither small nor large.
   double scale(std::size_t i) const { return scales_[i]; }

@@ -19,14 +19,15 @@ struct GradientCheck {
   double transpose = 0.0;  // |<v, J x> - <J^T v, x>| over |v| |J x|, the worst of the problems
   double tangent = 0.0;    // relative difference of adjoint and tangent along a random direction
   std::vector<DifferenceStep> steps;
-  // One by one, [variable], where asked for; and the greatest difference from the gradient over the greatest
-  // scaled derivative, else that of the best step.
+  // Central differences one by one, [variable], where asked for; and the greatest departure of the gradient from
+  // them, over the greatest derivative of its kind (bumps, or single numbers, times their scales). Where they are
+  // not asked for, the least error of the steps.
   std::vector<double> differences;
   double finite_difference = 0.0;
 };
 
 struct GradientCheckOptions {
-  double difference_step = 0.02;  // over the scale of a variable
+  double difference_step = 5e-4;  // over the scale of a variable
   int max_differences = 32;
   GmresOptions gmres{};  // of adjoint and tangent, as far as round-off allows
 };

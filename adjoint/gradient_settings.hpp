@@ -17,7 +17,7 @@ struct GradientSettings {
   bool fixed_lift = false;
   double tolerance = 1e-10;
   double onset_energy = 1e-4;
-  double difference_step = 0.02;
+  double difference_step = 5e-4;
   int max_differences = 32;
 
   bool has(const std::string& parameter) const;

@@ -3,6 +3,16 @@
 #include <fmt/format.h>
 
 namespace wingbeat {
+namespace {
+
+// What helps linear solves where factors are incomplete.
+std::string factor_advice(const SolverSettings& settings) {
+  if (settings.subdomain != "ilu") return "";
+  return fmt::format("; with solver.subdomain = ilu raise solver.ilu_fill = {} or solver.krylov_restart = {}",
+                     settings.ilu_fill, settings.krylov_restart);
+}
+
+}  // namespace
 
 std::string steady_advice(SolveStatus status, const SolverSettings& settings) {
   switch (status) {
@@ -15,7 +25,8 @@ std::string steady_advice(SolveStatus status, const SolverSettings& settings) {
           settings.steady_target(), settings.max_steady_iterations);
     case SolveStatus::stalled:
       return "the steady flow stalled: no step lowers |R|; look at the mesh with `wingbeat mesh`, or lower "
-             "flow.mach or the incidence";
+             "flow.mach or the incidence" +
+             factor_advice(settings);
     case SolveStatus::diverged:
       return "the steady flow diverged; look at the mesh with `wingbeat mesh`, or lower flow.mach or the "
              "incidence";
@@ -37,8 +48,9 @@ std::string coupled_advice(SolveStatus status, const SolverSettings& settings) {
     case SolveStatus::stalled:
       return fmt::format(
           "Newton on the coupled problem stalled: no step lowers |F|; start from the solution of a smaller "
-          "flutter.energy with --restart, or raise solver.max_linear_iterations = {} if that many were used",
-          settings.max_linear_iterations);
+          "flutter.energy with --restart, or raise solver.max_linear_iterations = {} if that many were "
+          "used{}",
+          settings.max_linear_iterations, factor_advice(settings));
     case SolveStatus::diverged:
       return "Newton on the coupled problem diverged, or had no flow to start with; start from the solution "
              "of a smaller flutter.energy with --restart, go there by `wingbeat lco` with lco.energies in "
@@ -87,8 +99,8 @@ std::string forced_advice(SolveStatus status, const SolverSettings& settings) {
     case SolveStatus::stalled:
       return fmt::format(
           "Newton on the forced motion stalled: no step lowers |R|; start from the solution of a smaller "
-          "amplitude with --restart, or raise solver.max_linear_iterations = {} if that many were used",
-          settings.max_linear_iterations);
+          "amplitude with --restart, or raise solver.max_linear_iterations = {} if that many were used{}",
+          settings.max_linear_iterations, factor_advice(settings));
     case SolveStatus::diverged:
       return "Newton on the forced motion diverged; start from the solution of a smaller amplitude with "
              "--restart";

@@ -38,6 +38,7 @@ nlohmann::ordered_json cycle_entry(const CaseSettings& settings, const Structure
   entry["newton_iterations"] = solution.newton_iterations;
   entry["linear_iterations"] = solution.linear_iterations;
   entry["factorizations"] = solution.factorizations;
+  entry["factor_megabytes"] = 1e-6 * solution.factor_bytes;
   entry["staggered_iterations"] = solution.staggered_iterations;
   entry["flow_cycles"] = solution.flow_cycles;
   return entry;
@@ -69,6 +70,8 @@ void print_cycle(Context& context, const nlohmann::ordered_json& entry) {
   if (count("newton_iterations") > 0)
     log.line("{:<34}{} Newton, {} Krylov, {} new factorizations", "iterations", count("newton_iterations"),
              count("linear_iterations"), count("factorizations"));
+  if (number("factor_megabytes") > 0.0)
+    log.line("{:<34}{:.1f} MB on all ranks", "factors", number("factor_megabytes"));
   log.line("");
 }
 

@@ -156,6 +156,7 @@ CycleSolution CycleSolver::solve_coupled(const std::string& stage, const CycleSt
   solution.newton_iterations = result.iterations;
   solution.linear_iterations = result.linear_iterations;
   solution.factorizations = result.factorizations;
+  solution.factor_bytes = context_.comm.sum(factor_bytes(start.factors));
   solution.loads = flow.loads(solution.state.w, problem.motions(solution.state));
   if (how.with_tangent && result.status == SolveStatus::converged) {
     const auto slope = context_.timer.measure("branch slope");

@@ -30,6 +30,7 @@ struct CycleSolution {
   int newton_iterations = 0;
   int linear_iterations = 0;
   int factorizations = 0;
+  double factor_bytes = 0.0;  // of all ranks, by Newton's method
   int staggered_iterations = 0;
   int flow_cycles = 0;
   std::vector<Loads<double>> loads;  // of every instance

@@ -67,8 +67,7 @@ template <int Dim>
 FlowLevels<Dim> make_levels(Context& context, const MultiblockMesh<Dim>& mesh) {
   const auto part = context.timer.measure("mesh");
   const CaseSettings& settings = context.settings;
-  // The Schwarz overlap counts layers of the matrix, which reaches two cells to each side.
-  const FlowLevelOptions options{partition_options(settings), (settings.solver.overlap + 1) / 2};
+  const FlowLevelOptions options{partition_options(settings), subdomain_options(settings.solver)};
   FlowLevels<Dim> levels;
   auto meshes = mesh_sequence(settings.mesh, mesh, settings.solver.coarse_levels);
   for (auto& level_mesh : meshes) {
@@ -90,10 +89,18 @@ FlowLevels<Dim> make_levels(Context& context, const MultiblockMesh<Dim>& mesh) {
   return levels;
 }
 
+SubdomainOptions subdomain_options(const SolverSettings& settings) {
+  // Layers of the matrix, which reaches two cells to each side.
+  return {.overlap = (settings.overlap + 1) / 2,
+          .method = settings.subdomain == "ilu" ? SubdomainMethod::ilu : SubdomainMethod::lu,
+          .fill = settings.ilu_fill};
+}
+
 GmresOptions gmres_options(const SolverSettings& settings) {
   GmresOptions options;
   options.restart = settings.krylov_restart;
   options.max_iterations = settings.max_linear_iterations;
+  options.deflation = settings.krylov_deflation;
   return options;
 }
 

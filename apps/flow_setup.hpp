@@ -29,6 +29,7 @@ template <int Dim>
 FlowLevels<Dim> make_levels(Context& context, const MultiblockMesh<Dim>& mesh);
 
 PseudoTransientOptions steady_options(const SolverSettings& settings);
+SubdomainOptions subdomain_options(const SolverSettings& settings);
 GmresOptions gmres_options(const SolverSettings& settings);
 ForcedFlowOptions forced_flow_options(const SolverSettings& settings);
 

@@ -25,7 +25,8 @@ void compute_derivatives(Context& context, FlowLevel<2>& level) {
   options.flow = forced_flow_options(settings.solver);
   options.observer = [&](const ForcedFlowIteration&) { return !context.stop.is_set(); };
   const Eigen::Matrix2cd forced = forced_aerodynamic_matrix<2>(level, time, kinematics, k, options);
-  LinearizedSection<2> section(level, kinematics, {level.w, std::vector<double>(4, 0.0), 0.0, 1.0}, 1e-10);
+  LinearizedSection<2> section(level, kinematics, {level.w, std::vector<double>(4, 0.0), 0.0, 1.0}, 1e-10, {},
+                               gmres_options(settings.solver));
   report_derivatives(context, forced, section.aerodynamic_matrix(k));
 }
 

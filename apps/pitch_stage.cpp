@@ -123,7 +123,8 @@ ForcedFlowStage run_pitch_stage(Context& context, FlowLevels<2>& levels, History
   }
   if (start.w.empty() && !by_cycles) {
     const auto part = context.timer.measure("linear response");
-    start = linear_start<2>(level, time, forced_motion(settings.pitch), kappa(settings));
+    start = linear_start<2>(level, time, forced_motion(settings.pitch), kappa(settings),
+                            gmres_options(settings.solver));
   }
   return solve_forced(context, level, time, std::move(start), history);
 }

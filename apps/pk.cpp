@@ -137,7 +137,7 @@ SolveStatus run_pk(Context& context) {
   const AeroelasticState rest{level.w, std::vector<double>(4, 0.0), 0.0, 1.0};
   const LinearFlutterOptions options = linear_flutter_options(context);
   LinearizedSection<2> section(level, section_kinematics(settings), rest, options.tolerance,
-                               options.is_stopped);
+                               options.is_stopped, options.newton.gmres);
   const AerodynamicMatrix linearized = [&section](double k) { return section.aerodynamic_matrix(k); };
   const Eigen::MatrixXd steady_matrix = linearized(0.0).real();
   if (settings.pk.aerodynamics == "linearized") {

@@ -57,7 +57,7 @@ FlowLevel<Dim>::FlowLevel(const Comm& comm, MultiblockMesh<Dim> level_mesh,
       local(build_local_mesh<Dim>(mesh, partition, comm.rank())),
       domain(comm, local, axis),
       subdomain(
-          std::make_shared<const Subdomain>(comm, domain.exchange(), domain.pattern(), options.overlap)),
+          std::make_shared<const Subdomain>(comm, domain.exchange(), domain.pattern(), options.subdomain)),
       steady(domain, model, TimeSpectral(0)),
       solver(std::make_shared<SchwarzSolver<double>>(comm, subdomain, state_size<Dim>)) {}
 

@@ -12,7 +12,7 @@ namespace wingbeat {
 
 struct FlowLevelOptions {
   PartitionOptions partition;
-  int overlap = 3;  // layers of the matrix graph around a rank's cells in the Schwarz solvers
+  SubdomainOptions subdomain{};  // of the Schwarz solvers
 };
 
 // One mesh with everything that solving the steady flow on it takes. Not copied or moved: parts

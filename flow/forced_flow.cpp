@@ -16,7 +16,7 @@ ForcedFlowStart steady_start(const FlowLevel<Dim>& level, const TimeSpectral& ti
 
 template <int Dim>
 ForcedFlowStart linear_start(FlowLevel<Dim>& level, const TimeSpectral& time, const ForcedMotion& motion,
-                             double kappa) {
+                             double kappa, const GmresOptions& gmres) {
   constexpr double tolerance = 1e-3;  // of a start whose error is of second order in the motion
   using Complex = std::complex<double>;
   ForcedFlowStart start = steady_start<Dim>(level, time);
@@ -27,7 +27,7 @@ ForcedFlowStart linear_start(FlowLevel<Dim>& level, const TimeSpectral& time, co
     const Complex pitch = motion.pitch_harmonic(h), plunge = motion.plunge_harmonic(h);
     if (pitch == 0.0 && plunge == 0.0) continue;
     FrequencyResponse<Dim> response(level.steady, start.factors.harmonics[static_cast<std::size_t>(h - 1)],
-                                    tolerance);
+                                    tolerance, gmres);
     const HarmonicResponse& unit = response.at(h * kappa);
     for (int n = 0; n < time.instances(); ++n) {
       const Complex turn = std::polar(1.0, h * time.phase(n));
@@ -63,8 +63,10 @@ ForcedFlowResult solve_forced_flow(FlowEquations<Dim>& flow, HarmonicFactors fac
 
 template ForcedFlowStart steady_start<2>(const FlowLevel<2>&, const TimeSpectral&);
 template ForcedFlowStart steady_start<3>(const FlowLevel<3>&, const TimeSpectral&);
-template ForcedFlowStart linear_start<2>(FlowLevel<2>&, const TimeSpectral&, const ForcedMotion&, double);
-template ForcedFlowStart linear_start<3>(FlowLevel<3>&, const TimeSpectral&, const ForcedMotion&, double);
+template ForcedFlowStart linear_start<2>(FlowLevel<2>&, const TimeSpectral&, const ForcedMotion&, double,
+                                         const GmresOptions&);
+template ForcedFlowStart linear_start<3>(FlowLevel<3>&, const TimeSpectral&, const ForcedMotion&, double,
+                                         const GmresOptions&);
 template ForcedFlowResult solve_forced_flow<2>(FlowEquations<2>&, HarmonicFactors,
                                                const std::vector<MotionState>&, double, std::span<double>,
                                                const ForcedFlowOptions&, const ForcedFlowObserver&);

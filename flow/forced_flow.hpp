@@ -49,7 +49,7 @@ ForcedFlowStart steady_start(const FlowLevel<Dim>& level, const TimeSpectral& ti
 // SolveFailure where a linear solve fails.
 template <int Dim>
 ForcedFlowStart linear_start(FlowLevel<Dim>& level, const TimeSpectral& time, const ForcedMotion& motion,
-                             double kappa);
+                             double kappa, const GmresOptions& gmres = {});
 
 // Periodic flow R(w) = 0 under given motions, one an instance, by Newton's method. w: the start,
 // then the solution. Collective.

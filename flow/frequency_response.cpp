@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/algebra/newton.hpp"
@@ -54,8 +55,11 @@ Complex dot(std::span<const double> gradient, std::span<const Complex> x) {
 
 template <int Dim>
 FrequencyResponse<Dim>::FrequencyResponse(const FlowEquations<Dim>& flow,
-                                          std::shared_ptr<SchwarzSolver<Complex>> solver, double tolerance)
-    : flow_(flow), solver_(std::move(solver)), tolerance_(tolerance) {}
+                                          std::shared_ptr<SchwarzSolver<Complex>> solver, double tolerance,
+                                          const GmresOptions& gmres)
+    : flow_(flow), solver_(std::move(solver)), gmres_(gmres) {
+  gmres_.relative_tolerance = tolerance;
+}
 
 template <int Dim>
 void FrequencyResponse<Dim>::factor(double kappa) {
@@ -73,21 +77,23 @@ void FrequencyResponse<Dim>::solve(double kappa, std::span<const Complex> rhs, s
   if (std::abs(kappa - factored_kappa_) > nearness * kappa) factor(kappa);
   const FrequencyOperator<Dim> op(flow_, kappa);
   const Comm& comm = flow_.domain().comm();
-  GmresOptions options{tolerance_, 60, factored_kappa_ == kappa ? 600 : patience};
+  GmresOptions options = gmres_;
+  if (factored_kappa_ != kappa) options.max_iterations = std::min(options.max_iterations, patience);
   GmresResult result = gmres<Complex>(comm, op, *solver_, rhs, x, options);
   linear_iterations_ += result.iterations;
   if (result.status != GmresStatus::converged && factored_kappa_ != kappa) {
     factor(kappa);
-    options.max_iterations = 600;
-    result = gmres<Complex>(comm, op, *solver_, rhs, x, options);
+    result = gmres<Complex>(comm, op, *solver_, rhs, x, gmres_);
     linear_iterations_ += result.iterations;
   }
-  if (result.status != GmresStatus::converged && result.relative_residual > 100 * tolerance_)
+  if (result.status != GmresStatus::converged && result.relative_residual > 100 * gmres_.relative_tolerance)
     throw SolveFailure(
         SolveStatus::stalled,
-        fmt::format("linearized flow at kappa = {:.4g}: GMRES ended with {} at relative residual {:.1e}; "
-                    "raise solver.overlap or use fewer ranks",
-                    kappa, to_string(result.status), result.relative_residual));
+        fmt::format(
+            "linearized flow at kappa = {:.4g}: GMRES ended with {} at relative residual {:.1e}; "
+            "raise solver.overlap, use fewer ranks, or raise solver.ilu_fill where solver.subdomain = "
+            "ilu",
+            kappa, to_string(result.status), result.relative_residual));
 }
 
 template <int Dim>

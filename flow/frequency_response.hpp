@@ -23,9 +23,11 @@ struct HarmonicResponse {
 template <int Dim>
 class FrequencyResponse {
  public:
-  // `flow`: one instance, linearized at the steady state, kept alive and linearized there.
+  // `flow`: one instance, linearized at the steady state, kept alive and linearized there. `gmres` gives
+  // lengths; its tolerance does not count.
   FrequencyResponse(const FlowEquations<Dim>& flow,
-                    std::shared_ptr<SchwarzSolver<std::complex<double>>> solver, double tolerance = 1e-10);
+                    std::shared_ptr<SchwarzSolver<std::complex<double>>> solver, double tolerance = 1e-10,
+                    const GmresOptions& gmres = {});
 
   // At frequency kappa on the flow's clock. The factors of a near frequency serve while GMRES stays
   // short with them, and its solution is the start. Collective. Throws SolveFailure where the
@@ -41,7 +43,7 @@ class FrequencyResponse {
 
   const FlowEquations<Dim>& flow_;
   std::shared_ptr<SchwarzSolver<std::complex<double>>> solver_;
-  double tolerance_;
+  GmresOptions gmres_;
   double factored_kappa_ = -1.0;
   double solved_kappa_ = -1.0;
   HarmonicResponse response_;

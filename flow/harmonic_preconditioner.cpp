@@ -15,6 +15,12 @@ HarmonicFactors unfactored(const Comm& comm, const std::shared_ptr<const Subdoma
   return factors;
 }
 
+double factor_bytes(const HarmonicFactors& factors) {
+  double sum = factors.mean->factor_bytes();
+  for (const auto& solver : factors.harmonics) sum += solver->factor_bytes();
+  return sum;
+}
+
 std::vector<Complex> harmonic_shift(std::span<const double> volumes, double frequency) {
   std::vector<Complex> shift;
   shift.reserve(volumes.size());

@@ -79,6 +79,9 @@ class MultiplicativePreconditioner final : public LinearOperator<double> {
 HarmonicFactors unfactored(const Comm& comm, const std::shared_ptr<const Subdomain>& subdomain,
                            int block_size, int harmonics);
 
+// Memory of factors on this rank.
+double factor_bytes(const HarmonicFactors& factors);
+
 // kappa Omega i h as the diagonal shift of a factorization.
 std::vector<std::complex<double>> harmonic_shift(std::span<const double> volumes, double frequency);
 

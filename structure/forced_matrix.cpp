@@ -14,7 +14,7 @@ using Complex = std::complex<double>;
 template <int Dim>
 Eigen::Vector2cd forced_loads(FlowLevel<Dim>& level, FlowEquations<Dim>& flow, const ForcedMotion& motion,
                               double kappa, const ForcedMatrixOptions& options) {
-  ForcedFlowStart start = linear_start<Dim>(level, flow.time(), motion, kappa);
+  ForcedFlowStart start = linear_start<Dim>(level, flow.time(), motion, kappa, options.flow.newton.gmres);
   const std::vector<MotionState> motions = motions_of(motion, flow.time(), kappa);
   const ForcedFlowResult result =
       solve_forced_flow<Dim>(flow, start.factors, motions, kappa, start.w, options.flow, options.observer);

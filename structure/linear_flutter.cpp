@@ -54,12 +54,12 @@ bool is_deflected(const Loads<double>& loads) {
 template <int Dim>
 LinearizedSection<Dim>::LinearizedSection(FlowLevel<Dim>& level, const SectionKinematics& kinematics,
                                           AeroelasticState rest, double tolerance,
-                                          std::function<bool()> is_stopped)
+                                          std::function<bool()> is_stopped, const GmresOptions& gmres)
     : kinematics_(kinematics),
       rest_(std::move(rest)),
       solver_(std::make_shared<SchwarzSolver<std::complex<double>>>(level.comm(), level.subdomain,
                                                                     state_size<Dim>)),
-      response_(level.steady, solver_, tolerance),
+      response_(level.steady, solver_, tolerance, gmres),
       is_stopped_(std::move(is_stopped)) {
   const std::vector<MotionState> motion{kinematics_.motion(rest_.y, rest_.r)};
   level.steady.linearize(rest_.w, motion, 0.0);
@@ -144,7 +144,7 @@ LinearFlutterSolution<Dim> solve_linear_flutter(FlowLevelRange<Dim> levels, cons
     for (int repeat = 0; repeat < max_equilibria; ++repeat) {
       solution.section = std::make_unique<LinearizedSection<Dim>>(
           *level, kinematics, section_at_rest<Dim>(*level, model, kinematics, speed, options),
-          options.tolerance);
+          options.tolerance, std::function<bool()>{}, options.newton.gmres);
       if (level == solved.front()) {
         table = sampled_matrix<Dim>(*solution.section, options);
         solution.flutter.roots = scan_flutter_roots(model, *table);

@@ -22,7 +22,7 @@ class LinearizedSection {
   // `rest`: one instance w, y of the section at rest. `is_stopped` is polled before every Q(k), which
   // then throws SolveFailure(interrupted). Collective.
   LinearizedSection(FlowLevel<Dim>& level, const SectionKinematics& kinematics, AeroelasticState rest,
-                    double tolerance, std::function<bool()> is_stopped = {});
+                    double tolerance, std::function<bool()> is_stopped = {}, const GmresOptions& gmres = {});
 
   const AeroelasticState& rest() const { return rest_; }
   // f = Q (h/b, alpha), f = (-C_l, 2 C_m). Collective.
@@ -48,7 +48,7 @@ struct LinearFlutterOptions {
   std::array<double, 2> reduced_frequency_range{0.02, 0.6};
   int samples = 12;
   double tolerance = 1e-8;  // of the linear solves behind Q
-  NewtonOptions newton{};   // of static equilibrium
+  NewtonOptions newton{};   // of static equilibrium; its lengths of GMRES hold behind Q too
   AeroelasticTolerances tolerances{};
   std::function<bool()> is_stopped{};  // collective; polled between linear solves
 };

@@ -2,47 +2,16 @@
 
 #include <metis.h>
 
-#include <algorithm>
 #include <numeric>
 #include <string>
 
+#include "core/algebra/adjacency_graph.hpp"
 #include "core/io/error.hpp"
 
 namespace wingbeat {
 namespace {
 
-struct Graph {
-  std::vector<int> begin;
-  std::vector<int> neighbours;
-
-  int size() const { return static_cast<int>(begin.size()) - 1; }
-  std::span<const int> of(int vertex) const {
-    return std::span(neighbours).subspan(begin[vertex], begin[vertex + 1] - begin[vertex]);
-  }
-};
-
-// The graph of A + A^T without its diagonal. METIS does not return from one-way edges.
-Graph symmetric_graph(std::span<const int> row_begin, std::span<const int> columns) {
-  const int n = static_cast<int>(row_begin.size()) - 1;
-  std::vector<std::vector<int>> adjacent(n);
-  for (int row = 0; row < n; ++row) {
-    for (int k = row_begin[row]; k < row_begin[row + 1]; ++k) {
-      if (columns[k] == row) continue;
-      adjacent[row].push_back(columns[k]);
-      adjacent[columns[k]].push_back(row);
-    }
-  }
-  Graph graph{.begin = {0}, .neighbours = {}};
-  for (auto& list : adjacent) {
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-    graph.neighbours.insert(graph.neighbours.end(), list.begin(), list.end());
-    graph.begin.push_back(static_cast<int>(graph.neighbours.size()));
-  }
-  return graph;
-}
-
-std::vector<int> nested_dissection(Graph& graph) {
+std::vector<int> nested_dissection(AdjacencyGraph& graph) {
   static_assert(sizeof(idx_t) == sizeof(int), "METIS with 32-bit indices is expected");
   idx_t n = graph.size();
   std::vector<int> order(n), position(n);
@@ -63,7 +32,7 @@ std::vector<int> nested_dissection(Graph& graph) {
 }
 
 // Parent of each elimination step in the elimination tree (Liu 1990, doi:10.1137/0611010), -1 at roots.
-std::vector<int> elimination_tree(const Graph& graph, std::span<const int> order) {
+std::vector<int> elimination_tree(const AdjacencyGraph& graph, std::span<const int> order) {
   const int n = graph.size();
   std::vector<int> position(n), parent(n, -1), ancestor(n, -1);
   for (int q = 0; q < n; ++q) position[order[q]] = q;
@@ -108,7 +77,8 @@ std::vector<int> postorder(std::span<const int> parent) {
 }  // namespace
 
 std::vector<int> fill_reducing_order(std::span<const int> row_begin, std::span<const int> columns) {
-  Graph graph = symmetric_graph(row_begin, columns);
+  // METIS does not return from one-way edges.
+  AdjacencyGraph graph = symmetric_graph(row_begin, columns);
   const std::vector<int> dissection = nested_dissection(graph);
   std::vector<int> order;
   for (const int step : postorder(elimination_tree(graph, dissection))) order.push_back(dissection[step]);

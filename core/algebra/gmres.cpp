@@ -4,81 +4,32 @@
 #include <cmath>
 #include <complex>
 #include <limits>
-#include <type_traits>
+#include <utility>
 #include <vector>
 
+#include "core/algebra/hessenberg_least_squares.hpp"
+#include "core/algebra/krylov_deflation.hpp"
 #include "core/algebra/krylov_kernels.hpp"
 #include "core/io/error.hpp"
 
 namespace wingbeat {
 namespace {
 
-// A cycle that leaves more than this part of the residual leads nowhere.
+// A cycle that leaves more than this part of the residual leads nowhere,
 constexpr double stagnation = 0.999;
+// but this many of them may pass while deflation finds the directions that hold it up.
+constexpr int stalls_allowed = 3;
 
-// The small least-squares problem min |beta e_1 - H y|, H upper Hessenberg, kept triangular by
-// Givens rotations while columns are added.
-template <class T>
-class HessenbergLeastSquares {
- public:
-  explicit HessenbergLeastSquares(double beta) : rhs_{T(beta)} {}
+// The residual may lie outside the kept space by this part of itself, squared.
+constexpr double negligible_part = 1e-8;
 
-  // Adds column (h_0 .. h_k, subdiagonal); returns the residual norm of the larger problem.
-  double add_column(std::vector<T> column, double subdiagonal) {
-    for (std::size_t i = 0; i < rotations_.size(); ++i) rotations_[i].turn(column[i], column[i + 1]);
-    Rotation rotation(column.back(), subdiagonal);
-    T below = subdiagonal;
-    rotation.turn(column.back(), below);
-    rhs_.push_back(T(0));
-    rotation.turn(rhs_[rhs_.size() - 2], rhs_.back());
-    rotations_.push_back(rotation);
-    columns_.push_back(std::move(column));
-    return std::abs(rhs_.back());
-  }
-
-  // The minimiser; directions the operator maps to nothing, to round-off, get no weight.
-  std::vector<T> solution() const {
-    std::vector<T> y(rhs_.begin(), rhs_.end() - 1);
-    double largest = 0.0;
-    for (std::size_t k = 0; k < y.size(); ++k) largest = std::max(largest, std::abs(columns_[k][k]));
-    const double negligible = 16.0 * std::numeric_limits<double>::epsilon() * largest;
-    for (std::size_t k = y.size(); k-- > 0;) {
-      const T pivot = columns_[k][k];
-      y[k] = std::abs(pivot) <= negligible ? T(0) : y[k] / pivot;
-      for (std::size_t i = 0; i < k; ++i) y[i] -= columns_[k][i] * y[k];
-    }
-    return y;
-  }
-
- private:
-  struct Rotation {
-    double cosine = 1.0;
-    T sine = T(0);
-
-    Rotation(T upper, double lower) {
-      const double length = std::hypot(std::abs(upper), lower);
-      if (length == 0.0) return;
-      cosine = std::abs(upper) / length;
-      const T direction = upper == T(0) ? T(1) : upper / std::abs(upper);
-      sine = direction * (lower / length);
-    }
-    void turn(T& upper, T& lower) const {
-      const T old = upper;
-      upper = cosine * old + sine * lower;
-      lower = cosine * lower - conjugate(sine) * old;
-    }
-  };
-
-  std::vector<Rotation> rotations_;
-  std::vector<std::vector<T>> columns_;
-  std::vector<T> rhs_;
-};
-
-// Orthonormal basis V of the Krylov space and its preconditioned copies Z = M^-1 V.
+// Orthonormal basis V of the Krylov space, its preconditioned copies Z = M^-1 V, and the small problem
+// with A Z = V H.
 template <class T>
 struct KrylovSpace {
   std::vector<std::vector<T>> v;
   std::vector<std::vector<T>> z;
+  HessenbergLeastSquares<T> small{0.0};
 };
 
 struct Orthogonalized {
@@ -112,17 +63,56 @@ Orthogonalized orthogonalize(const Comm& comm, const std::vector<std::vector<T>>
   return result;
 }
 
-// One cycle from residual r of norm beta; x is improved unless something was not finite.
+// Replaces vectors by combinations of them, a stretch of entries at a time.
 template <class T>
-bool run_cycle(const Comm& comm, const LinearOperator<T>& op, const LinearOperator<T>& preconditioner,
-               std::vector<T> r, double beta, double target, int max_columns, KrylovSpace<T>& space,
-               std::span<T> x, int& iterations) {
-  scale<T>(1.0 / beta, r);
+void combine(std::vector<std::vector<T>>& vectors, const DenseMatrix<T>& weights) {
+  constexpr std::size_t stretch = 256;
+  const auto old_count = static_cast<std::size_t>(weights.rows());
+  const auto new_count = static_cast<std::size_t>(weights.cols());
+  const std::size_t n = vectors.front().size();
+  for (std::size_t begin = 0; begin < n; begin += stretch) {
+    const auto length = static_cast<Eigen::Index>(std::min(stretch, n - begin));
+    DenseMatrix<T> old(length, weights.rows());
+    for (std::size_t j = 0; j < old_count; ++j)
+      std::copy_n(vectors[j].begin() + begin, length, old.col(j).begin());
+    const DenseMatrix<T> combined = old * weights;
+    for (std::size_t j = 0; j < new_count; ++j)
+      std::copy_n(combined.col(j).begin(), length, vectors[j].begin() + begin);
+  }
+  vectors.resize(new_count);
+}
+
+template <class T>
+void restart_plainly(KrylovSpace<T>& space, std::span<const T> r, double beta) {
   space.v.clear();
   space.z.clear();
-  space.v.push_back(std::move(r));
-  HessenbergLeastSquares<T> small(beta);
-  for (int k = 0; k < max_columns; ++k) {
+  scale<T>(1.0 / beta, space.v.emplace_back(r.begin(), r.end()));
+  space.small = HessenbergLeastSquares<T>(beta);
+}
+
+// Goes on with the slow directions of the last cycle, which left the residual r of norm beta. False where
+// that is not possible; a plain restart always is.
+template <class T>
+bool restart_deflated(const Comm& comm, KrylovSpace<T>& space, std::span<const T> r, double beta, int count) {
+  if (space.z.empty() || space.v.size() == space.z.size()) return false;  // none yet, or one exhausted
+  const auto kept = deflated_space<T>(space.small.matrix(), count);
+  if (!kept) return false;
+  const auto [rows, columns] = std::pair(kept->hessenberg.rows(), kept->hessenberg.cols());
+  combine<T>(space.v, kept->basis);
+  combine<T>(space.z, kept->basis.topLeftCorner(kept->basis.rows() - 1, columns));
+  DenseVector<T> c(rows);
+  for (Eigen::Index i = 0; i < rows; ++i) c[i] = local_dot(space.v[i], r);
+  comm.sum(std::span<T>(c.data(), space.v.size()));
+  if (!(std::abs(c.squaredNorm() / (beta * beta) - 1.0) < negligible_part)) return false;
+  space.small = HessenbergLeastSquares<T>(kept->hessenberg, c);
+  return true;
+}
+
+// Adds up to `new_columns` to the space; x is improved unless something was not finite.
+template <class T>
+bool run_cycle(const Comm& comm, const LinearOperator<T>& op, const LinearOperator<T>& preconditioner,
+               double target, int new_columns, KrylovSpace<T>& space, std::span<T> x, int& iterations) {
+  for (int k = 0; k < new_columns; ++k) {
     std::vector<T>& z = space.z.emplace_back(x.size());
     std::vector<T> w(x.size());
     preconditioner.apply(space.v.back(), z);
@@ -132,12 +122,13 @@ bool run_cycle(const Comm& comm, const LinearOperator<T>& op, const LinearOperat
     ++iterations;
     if (!std::isfinite(norm) || !std::isfinite(norm_before)) return false;
     const bool exhausted = norm <= std::numeric_limits<double>::epsilon() * norm_before;
-    const double estimate = small.add_column(std::move(column), exhausted ? 0.0 : norm);
-    if (exhausted || estimate <= target) break;
+    const double estimate = space.small.add_column(column, exhausted ? 0.0 : norm);
+    if (exhausted) break;
     scale<T>(1.0 / norm, w);
     space.v.push_back(std::move(w));
+    if (estimate <= target) break;
   }
-  const std::vector<T> y = small.solution();
+  const std::vector<T> y = space.small.solution();
   for (std::size_t k = 0; k < y.size(); ++k) add_scaled(y[k], space.z[k], x);
   return true;
 }
@@ -165,6 +156,7 @@ GmresResult gmres(const Comm& comm, const LinearOperator<T>& op, const LinearOpe
   ensure(rhs.size() == n && x.size() == n && preconditioner.local_size() == n,
          "gmres: vector or preconditioner of a wrong size");
   ensure(options.restart > 0, "gmres: restart length must be positive");
+  ensure(options.deflation >= 0, "gmres: negative deflation");
 
   GmresResult result;
   const double rhs_norm = global_norm<T>(comm, rhs);
@@ -189,26 +181,31 @@ GmresResult gmres(const Comm& comm, const LinearOperator<T>& op, const LinearOpe
   // The recurrence aims a little lower, so that its round-off does not cost another cycle.
   const double tolerance = options.relative_tolerance * rhs_norm;
   const double target = 0.99 * tolerance;
+  const int kept = std::min(options.deflation, options.restart - 2);
   KrylovSpace<T> space;
-  for (;;) {
+  for (int stalls = 0;;) {
     result.relative_residual = norm / rhs_norm;
     if (!std::isfinite(norm)) return result.status = GmresStatus::not_finite, result;
     if (norm <= tolerance) return result.status = GmresStatus::converged, result;
-    const int columns = std::min(options.restart, options.max_iterations - result.iterations);
-    if (columns <= 0) return result.status = GmresStatus::iteration_limit, result;
+    if (result.iterations >= options.max_iterations)
+      return result.status = GmresStatus::iteration_limit, result;
+    const bool is_deflated = kept > 0 && restart_deflated<T>(comm, space, r, norm, kept);
+    if (stalls > (is_deflated ? stalls_allowed : 0)) return result.status = GmresStatus::stagnated, result;
+    if (!is_deflated) restart_plainly<T>(space, r, norm);
+
+    const int columns = std::min(options.restart - static_cast<int>(space.z.size()),
+                                 options.max_iterations - result.iterations);
     const std::vector<T> x_before(x.begin(), x.end());
-    if (!run_cycle<T>(comm, op, preconditioner, r, norm, target, columns, space, x, result.iterations))
-      return result.status = GmresStatus::not_finite, result;
     const double previous = norm;
+    const bool is_finite =
+        run_cycle<T>(comm, op, preconditioner, target, columns, space, x, result.iterations);
+    if (!is_finite) return result.status = GmresStatus::not_finite, result;
     norm = update_residual();
-    if (norm < previous) {
-      if (norm <= tolerance || norm <= stagnation * previous) continue;
-    } else {
-      std::copy(x_before.begin(), x_before.end(), x.begin());
-    }
-    result.relative_residual = std::min(norm, previous) / rhs_norm;
-    result.status = std::isfinite(norm) ? GmresStatus::stagnated : GmresStatus::not_finite;
-    return result;
+    stalls = norm <= tolerance || norm <= stagnation * previous ? 0 : stalls + 1;
+    if (norm < previous) continue;
+    std::copy(x_before.begin(), x_before.end(), x.begin());
+    if (!std::isfinite(norm)) return result.status = GmresStatus::not_finite, result;
+    norm = update_residual();
   }
 }
 

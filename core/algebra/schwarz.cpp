@@ -5,35 +5,16 @@
 #include <string>
 
 #include "core/algebra/subdomain_data.hpp"
-#include "core/algebra/umfpack_lu.hpp"
+#include "core/algebra/subdomain_factors.hpp"
 #include "core/io/error.hpp"
 
 namespace wingbeat {
-namespace {
-
-// The rows of a block pattern as rows of single unknowns.
-template <class T>
-UmfpackLu<T> analyze(const Subdomain::Data& d, int block_size) {
-  std::vector<int> row_begin{0}, columns;
-  columns.reserve(d.columns.size() * block_size * block_size);
-  for (int q = 0; q < d.cell_count; ++q) {
-    for (int r = 0; r < block_size; ++r) {
-      for (int k = d.row_begin[q]; k < d.row_begin[q + 1]; ++k)
-        for (int s = 0; s < block_size; ++s) columns.push_back(d.columns[k] * block_size + s);
-      row_begin.push_back(static_cast<int>(columns.size()));
-    }
-  }
-  return UmfpackLu<T>(std::move(row_begin), std::move(columns));
-}
-
-}  // namespace
-
 template <class T>
 struct SchwarzSolver<T>::Impl {
   Comm comm;
   std::shared_ptr<const Subdomain> subdomain;
   int block_size;
-  UmfpackLu<T> lu;
+  std::unique_ptr<SubdomainFactors<T>> factors;
   bool factored = false;
 
   std::size_t width() const { return static_cast<std::size_t>(block_size); }
@@ -69,7 +50,7 @@ struct SchwarzSolver<T>::Impl {
 template <class T>
 SchwarzSolver<T>::SchwarzSolver(const Comm& comm, std::shared_ptr<const Subdomain> subdomain, int block_size)
     : impl_(std::make_unique<Impl>(
-          Impl{comm, subdomain, block_size, analyze<T>(subdomain->data(), block_size)})) {}
+          Impl{comm, subdomain, block_size, make_subdomain_factors<T>(*subdomain, block_size)})) {}
 
 template <class T>
 SchwarzSolver<T>::~SchwarzSolver() = default;
@@ -91,26 +72,25 @@ void SchwarzSolver<T>::factor(const BlockSparse<B>& matrix, std::span<const T> s
   std::vector<T> overlap_shift(d.cell_count - d.owned_count);
   d.overlap_cells.template gather<T>(own_shift, overlap_shift, 1, 1);
 
-  std::vector<T> values;
-  values.reserve(d.columns.size() * B * B);
+  std::vector<T> blocks;
+  blocks.reserve(d.columns.size() * B * B);
   for (int q = 0; q < d.cell_count; ++q) {
     const int cell = d.order[q];
     const T diagonal = cell < d.owned_count ? own_shift[cell] : overlap_shift[cell - d.owned_count];
-    for (int r = 0; r < B; ++r) {
-      for (int k = d.row_begin[q]; k < d.row_begin[q + 1]; ++k) {
-        const std::size_t origin = d.origins[k];
-        const double* const block = origin < d.own_block_count
-                                        ? matrix.values().data() + origin * B * B
-                                        : fetched.data() + (origin - d.own_block_count) * B * B;
+    for (int k = d.row_begin[q]; k < d.row_begin[q + 1]; ++k) {
+      const std::size_t origin = d.origins[k];
+      const double* const block = origin < d.own_block_count
+                                      ? matrix.values().data() + origin * B * B
+                                      : fetched.data() + (origin - d.own_block_count) * B * B;
+      for (int r = 0; r < B; ++r)
         for (int s = 0; s < B; ++s)
-          values.push_back(block[r * B + s] + (d.columns[k] == q && r == s ? diagonal : T(0)));
-      }
+          blocks.push_back(block[r * B + s] + (d.columns[k] == q && r == s ? diagonal : T(0)));
     }
   }
 
   std::string failure;
   try {
-    impl_->lu.factor(values);
+    impl_->factors->factor(blocks);
   } catch (const InternalError& error) {
     failure = error.what();
   }
@@ -140,7 +120,7 @@ void SchwarzSolver<T>::apply(std::span<const T> x, std::span<T> y) const {
   impl_->data().overlap_cells.template gather<T>(x, overlap, 1, impl_->block_size);
   const std::vector<T> b = impl_->eliminated(x, overlap);
   std::vector<T> solution(b.size());
-  impl_->lu.solve(b, solution);
+  impl_->factors->solve(b, solution);
   impl_->restore(solution, y, {});
 }
 
@@ -151,14 +131,14 @@ void SchwarzSolver<T>::apply_transpose(std::span<const T> x, std::span<T> y) con
   std::vector<T> overlap = impl_->overlap_vector();
   const std::vector<T> b = impl_->eliminated(x, overlap);
   std::vector<T> solution(b.size());
-  impl_->lu.solve_transpose(b, solution);
+  impl_->factors->solve_transpose(b, solution);
   impl_->restore(solution, y, overlap);
   impl_->data().overlap_cells.template scatter_add<T>(overlap, y, 1, impl_->block_size);
 }
 
 template <class T>
 double SchwarzSolver<T>::factor_bytes() const {
-  return impl_->lu.bytes();
+  return impl_->factors->bytes();
 }
 
 template class SchwarzSolver<double>;

@@ -11,14 +11,24 @@
 
 namespace wingbeat {
 
-// A rank's own cells and `overlap` layers of the matrix graph around them (each layer is what
-// one application of the matrix reaches): which cells, where they live, the pattern of their
-// rows restricted to the subdomain, and a fill-reducing order of its cells (METIS nested
-// dissection). Built once for a pattern; collective.
+// How the matrix of a subdomain is solved with: by sparse LU, or by block ILU(k) (eq:block-ilu), which
+// is not exact and takes a small part of the memory.
+enum class SubdomainMethod { lu, ilu };
+
+struct SubdomainOptions {
+  int overlap = 3;  // layers of the matrix graph around a rank's cells
+  SubdomainMethod method = SubdomainMethod::lu;
+  int fill = 2;  // highest level of fill that ILU keeps
+};
+
+// A rank's own cells and layers of the matrix graph around them (each layer is what one application
+// of the matrix reaches): which cells, where they live, the pattern of their rows restricted to the
+// subdomain, and the order in which they are eliminated: METIS nested dissection for LU,
+// Cuthill-McKee for ILU, whose pattern is found here. Built once for a pattern; collective.
 class Subdomain {
  public:
   Subdomain(const Comm& comm, const GhostExchange& halo, std::shared_ptr<const BlockPattern> pattern,
-            int overlap);
+            const SubdomainOptions& options);
   ~Subdomain();
   Subdomain(Subdomain&&) noexcept;
 
@@ -32,10 +42,10 @@ class Subdomain {
   std::unique_ptr<Data> data_;
 };
 
-// Restricted additive Schwarz with exact sparse LU (UMFPACK) on the subdomain:
+// Restricted additive Schwarz with sparse LU (UMFPACK) or block ILU on the subdomain:
 //   x = sum_ranks R0^T (R A R^T)^-1 R b,  A = matrix + diagonal,
 // R0 restricting to owned cells, R to owned and overlap cells (Cai & Sarkis 1999,
-// doi:10.1137/S106482759732678X). On one rank it is an exact solve. T is double or
+// doi:10.1137/S106482759732678X). With LU on one rank it is an exact solve. T is double or
 // std::complex<double>; vectors hold owned cells x B values. The transpose uses the same factors.
 template <class T>
 class SchwarzSolver final : public LinearOperator<T> {

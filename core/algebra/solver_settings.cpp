@@ -34,9 +34,21 @@ void SolverSettings::describe(SettingSection& keys) {
            {.help = "GMRES iterations allowed in one linear solve", .range = between(1, 100000)});
   keys.add("krylov_restart", &krylov_restart,
            {.help = "GMRES vectors kept before a restart", .range = between(2, 10000)});
+  keys.add("krylov_deflation", &krylov_deflation,
+           {.help = "directions that converge slowest, kept by GMRES over a restart where krylov_restart has "
+                    "room for them; 0: none",
+            .range = between(0, 1000)});
   keys.add(
       "overlap", &overlap,
       {.help = "layers of cells shared by the ranks' subdomain factorisations", .range = between(0, 64)});
+  keys.add(
+      "subdomain", &subdomain,
+      {.help = "lu: the ranks' matrices are factored exactly; ilu: incompletely, with a small part of the "
+               "memory and more GMRES iterations",
+       .allowed = {"lu", "ilu"}});
+  keys.add("ilu_fill", &ilu_fill,
+           {.help = "level of fill that ilu keeps: more takes memory and spares iterations",
+            .range = between(0, 10)});
   keys.add(
       "coarse_levels", &coarse_levels,
       {.help = "coarser meshes solved first; each halves the cells of a direction", .range = between(0, 8)});

@@ -19,7 +19,10 @@ struct SolverSettings {
   int max_newton_iterations = 30;
   int max_linear_iterations = 400;
   int krylov_restart = 60;
+  int krylov_deflation = 20;
   int overlap = 6;
+  std::string subdomain = "lu";
+  int ilu_fill = 2;
   int coarse_levels = 2;
 
   bool is_staggered() const { return method == "staggered"; }

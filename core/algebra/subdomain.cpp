@@ -2,6 +2,7 @@
 #include <map>
 #include <utility>
 
+#include "core/algebra/cuthill_mckee_order.hpp"
 #include "core/algebra/fill_reducing_order.hpp"
 #include "core/algebra/schwarz.hpp"
 #include "core/algebra/subdomain_data.hpp"
@@ -103,13 +104,13 @@ Overlap grow_overlap(const Comm& comm, const MatrixGraph& graph, int own_rows, i
 }  // namespace
 
 Subdomain::Subdomain(const Comm& comm, const GhostExchange& halo, std::shared_ptr<const BlockPattern> pattern,
-                     int overlap_layers)
+                     const SubdomainOptions& options)
     : data_(std::make_unique<Data>()) {
-  ensure(overlap_layers >= 0, "Subdomain: negative overlap");
+  ensure(options.overlap >= 0, "Subdomain: negative overlap");
   ensure(pattern->column_count - pattern->row_count == static_cast<int>(halo.ghost_count()),
          "Subdomain: the pattern's ghost columns are not those of the halo");
   const MatrixGraph graph(comm, halo.sources(), *pattern);
-  const Overlap overlap = grow_overlap(comm, graph, pattern->row_count, overlap_layers);
+  const Overlap overlap = grow_overlap(comm, graph, pattern->row_count, options.overlap);
 
   Data& d = *data_;
   d.owned_count = pattern->row_count;
@@ -144,7 +145,8 @@ Subdomain::Subdomain(const Comm& comm, const GhostExchange& halo, std::shared_pt
     for (const auto& [column, origin] : row) columns.push_back(column);
     row_begin.push_back(static_cast<int>(columns.size()));
   }
-  d.order = fill_reducing_order(row_begin, columns);
+  const bool is_incomplete = options.method == SubdomainMethod::ilu;
+  d.order = is_incomplete ? cuthill_mckee_order(row_begin, columns) : fill_reducing_order(row_begin, columns);
 
   std::vector<int> step(d.cell_count);
   for (int q = 0; q < d.cell_count; ++q) step[d.order[q]] = q;
@@ -158,6 +160,8 @@ Subdomain::Subdomain(const Comm& comm, const GhostExchange& halo, std::shared_pt
     }
     d.row_begin.push_back(static_cast<int>(d.columns.size()));
   }
+  if (is_incomplete)
+    d.ilu = std::make_shared<const IluPattern>(ilu_pattern(d.row_begin, d.columns, options.fill));
 }
 
 Subdomain::~Subdomain() = default;

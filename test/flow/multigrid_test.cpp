@@ -24,7 +24,7 @@ NewtonSolution solve_by_newton(MultigridCase& c, double tolerance) {
   FlowLevels<2> levels;
   levels.push_back(std::make_unique<FlowLevel<2>>(
       c.comm, c.mesh, c.flow.model(), c.domain.axis(),
-      FlowLevelOptions{.partition = {.imbalance = 0.05, .granularity = 16}, .overlap = 3}));
+      FlowLevelOptions{.partition = {.imbalance = 0.05, .granularity = 16}, .subdomain = {.overlap = 3}}));
   FlowLevel<2>& level = *levels.back();
   PseudoTransientOptions steady;
   steady.tolerance = tolerance;

@@ -18,8 +18,8 @@ struct SteadySolution {
 // floor of about 1e-12 of the residual of uniform flow.
 inline SteadySolution solve_steady(const FlowCase<2>& c, double tolerance = 3.2e-12) {
   FlowEquations<2> flow(c.domain, c.model, TimeSpectral(0));
-  const auto subdomain =
-      std::make_shared<const Subdomain>(c.comm, c.domain.exchange(), c.domain.pattern(), 3);
+  const auto subdomain = std::make_shared<const Subdomain>(c.comm, c.domain.exchange(), c.domain.pattern(),
+                                                           SubdomainOptions{.overlap = 3});
   SchwarzSolver<double> solver(c.comm, subdomain, state_size<2>);
   SteadySolution solution;
   solution.w = flow.uniform_state();

@@ -46,6 +46,15 @@ TEST_F(Cases, IsogaiAFluttersAlikeByThreeMethods) {
   EXPECT_NEAR(coupled["flutter"]["frequency_ratio"], 0.959968, kept);
 }
 
+TEST_F(Cases, FlutterByIncompleteFactorsIsThatByExactOnes) {
+  const auto exact = solve("flutter", "naca64a010", {})["flutter"];
+  const auto incomplete = solve("flutter", "naca64a010", {"solver.subdomain=ilu"})["flutter"];
+  for (const char* key : {"reduced_velocity", "frequency_ratio"})
+    EXPECT_NEAR(incomplete[key].get<double>() / exact[key].get<double>(), 1.0, 1e-8) << key;
+  EXPECT_GT(incomplete["factor_megabytes"], 0.0);
+  EXPECT_LT(incomplete["factor_megabytes"], 0.6 * exact["factor_megabytes"].get<double>());
+}
+
 TEST_F(Cases, IsogaiAHasItsTransonicDip) {
   const auto speed = [&](const std::string& mach) {
     return solve("flutter", "isogai-a", {"flow.mach=" + mach})["flutter"]["speed_index"].get<double>();

@@ -35,8 +35,8 @@ struct CoupledCase {
         time(harmonics),
         model(structure_model(paper_section)),
         flow(flow_case.domain, flow_case.model, time),
-        subdomain(std::make_shared<const Subdomain>(ranks, flow_case.domain.exchange(),
-                                                    flow_case.domain.pattern(), 3)),
+        subdomain(std::make_shared<const Subdomain>(
+            ranks, flow_case.domain.exchange(), flow_case.domain.pattern(), SubdomainOptions{.overlap = 3})),
         factors(unfactored(ranks, subdomain, state_size<2>, harmonics)) {}
   CoupledCase(const CoupledCase&) = delete;
   CoupledCase& operator=(const CoupledCase&) = delete;

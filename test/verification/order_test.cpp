@@ -130,8 +130,8 @@ double manufactured_solution_error(const Index<Dim>& cells, const Scheme& scheme
   c.model.scheme = scheme;
   FlowEquations<Dim> flow(c.domain, c.model, TimeSpectral(0));
   const auto exact = integrate<Dim>(c.mesh, ManufacturedFlow<Dim>{c.model.freestream}, 1.4);
-  const auto subdomain =
-      std::make_shared<const Subdomain>(c.comm, c.domain.exchange(), c.domain.pattern(), 0);
+  const auto subdomain = std::make_shared<const Subdomain>(c.comm, c.domain.exchange(), c.domain.pattern(),
+                                                           SubdomainOptions{.overlap = 0});
   SchwarzSolver<double> solver(c.comm, subdomain, state_size<Dim>);
   std::vector<double> w = exact.average;
   // From the exact averages Newton's method needs no pseudo-time.

@@ -25,7 +25,10 @@ struct Preconditioned {
 
   Preconditioned(int ni, int nj, int overlap)
       : grid(comm, ni, nj),
-        schwarz(comm, std::make_shared<Subdomain>(comm, grid.halo, grid.pattern, overlap), B) {
+        schwarz(
+            comm,
+            std::make_shared<Subdomain>(comm, grid.halo, grid.pattern, SubdomainOptions{.overlap = overlap}),
+            B) {
     schwarz.factor(matrix, std::span<const T>(shift));
   }
 };
@@ -91,7 +94,7 @@ TEST(Schwarz, OverlapGrowsByLayersOfTheMatrixGraph) {
   const Comm comm;
   const ModelGrid<B> grid(comm, 16, 6);
   for (const int overlap : {0, 1, 2, 3}) {
-    const Subdomain subdomain(comm, grid.halo, grid.pattern, overlap);
+    const Subdomain subdomain(comm, grid.halo, grid.pattern, {.overlap = overlap});
     EXPECT_EQ(subdomain.owned_count(), static_cast<int>(grid.cells.size()));
     EXPECT_EQ(subdomain.cell_count(), static_cast<int>(subdomain_cells(grid, overlap).size()));
   }
