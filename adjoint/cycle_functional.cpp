@@ -2,8 +2,8 @@
 
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
+#include "core/algebra/krylov_kernels.hpp"
 #include "flow/flow_sensitivity.hpp"
 #include "flow/flow_tangent.hpp"
 #include "structure/energy.hpp"
@@ -12,10 +12,6 @@ namespace wingbeat {
 namespace {
 
 constexpr double degrees = 180.0 / std::numbers::pi;
-
-double dot(std::span<const double> a, std::span<const double> b) {
-  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
-}
 
 // Sine and cosine of the first harmonic of pitch.
 std::array<HarmonicCondition, 2> first_harmonic(const StructuralEquation& structure) {
@@ -115,7 +111,7 @@ Inputs<Dim> CycleFunctional<Dim>::sensitivity(std::span<const double> multiplier
   const double by_energy = lambda.cycle * cycle.by_energy / cycle.energy.energy +
                            (quantity_ == CycleQuantity::energy ? 1.0 : 0.0);
   for (std::size_t k = 0; k < section_scalar_count; ++k)
-    result.section[k] = dot(lambda.structure, structure_by_[k]) + by_energy * energy_by_[k];
+    result.section[k] = local_dot(lambda.structure, structure_by_[k]) + by_energy * energy_by_[k];
   return result;
 }
 

@@ -18,7 +18,7 @@ struct DifferenceStep {
 struct GradientCheck {
   double transpose = 0.0;  // |<v, J x> - <J^T v, x>| over |v| |J x|, the worst of the problems
   double tangent = 0.0;    // relative difference of adjoint and tangent along a random direction
-  std::vector<DifferenceStep> steps;
+  std::vector<DifferenceStep> steps;  // those that lead to solutions
   // Central differences one by one, [variable], where asked for; and the greatest departure of the gradient from
   // them, over the greatest derivative of its kind (bumps, or single numbers, times their scales). Where they are
   // not asked for, the least error of the steps.

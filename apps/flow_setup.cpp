@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "adjoint/load_functional.hpp"
 #include "apps/case_mesh.hpp"
 
 namespace wingbeat {
@@ -121,17 +122,15 @@ ForcedFlowOptions forced_flow_options(const SolverSettings& settings) {
 
 Coefficients coefficients(const CaseSettings& settings, const Loads<double>& loads, double pitch) {
   const double angle = radians(settings.flow.angle_of_attack_deg);
-  Coefficients result;
-  result.cl = loads.force_y * std::cos(angle) - loads.force_x * std::sin(angle);
-  result.cd = loads.force_x * std::cos(angle) + loads.force_y * std::sin(angle);
-  result.cm = loads.moment;
-  if (const auto& reference = settings.flow.moment_reference) {
-    const Vec<double, 2> axis = rotation_axis(settings);
-    const auto arm = rigid_motion({pitch, 0.0, 0.0})
-                         .turned(Vec<double, 2>{{{(*reference)[0] - axis[0], (*reference)[1] - axis[1]}}});
-    result.cm += arm[0] * loads.force_y - arm[1] * loads.force_x;
-  }
-  return result;
+  Vec<double, 2> arm{};
+  if (const auto& reference = settings.flow.moment_reference)
+    arm = rigid_motion({pitch, 0.0, 0.0})
+              .turned(Vec<double, 2>{{{(*reference)[0], (*reference)[1]}}} - rotation_axis(settings));
+  const auto value = [&](LoadCoefficient which) {
+    const Loads<double> weights = coefficient_weights(which, angle, arm);
+    return load_dot({&weights, 1}, {&loads, 1});
+  };
+  return {value(LoadCoefficient::lift), value(LoadCoefficient::drag), value(LoadCoefficient::moment)};
 }
 
 template FlowModel<2, double> flow_model<2>(const FlowSettings&);

@@ -16,6 +16,7 @@ table=${2:-$build/benchmarks.txt}
   echo; benchmarks/flutter.sh "$build"
   echo; benchmarks/lco.sh "$build"
   echo; benchmarks/march.sh "$build"
+  echo; benchmarks/gradient.sh "$build"
   echo; python3 benchmarks/scaling_model.py "$build/wingbeat"
 } >"$table.part"
 mv "$table.part" "$table"

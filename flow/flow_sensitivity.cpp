@@ -1,19 +1,12 @@
 #include "flow/flow_sensitivity.hpp"
 
-#include <algorithm>
-
+#include "core/algebra/krylov_kernels.hpp"
 #include "flow/geometry_sensitivity.hpp"
 
 namespace wingbeat {
 namespace {
 
 using D = Dual<double, 3>;
-
-double dot(std::span<const double> x, std::span<const double> y) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < x.size(); ++i) sum += x[i] * y[i];
-  return sum;
-}
 
 // Seeds 0 and 1 on Mach number and angle of attack.
 template <int Dim>
@@ -125,7 +118,8 @@ FlowInputs<Dim> flow_sensitivity(const FlowEquations<Dim>& flow, const FlowPoint
     result.mach += stream[0];
     result.angle += stream[1];
     const auto& columns = flow.motion_gradients(i);
-    result.motions[i] = {dot(columns[0], lambda), dot(columns[1], lambda), dot(columns[2], lambda)};
+    result.motions[i] = {local_dot(columns[0], lambda), local_dot(columns[1], lambda),
+                         local_dot(columns[2], lambda)};
     add_load_sensitivities<Dim>(flow, w, beyond, motion, weights[i], result);
   }
   add_time_sensitivity<Dim>(flow, at, multipliers, result);
