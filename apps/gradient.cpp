@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
 
 #include "apps/case_mesh.hpp"
 #include "apps/flow_setup.hpp"
@@ -125,9 +126,19 @@ SolveStatus run_gradient(Context& context) {
   if (settings.gradient.objective == "onset_slope")
     report.errors = onset_errors(context.comm, variables, terms, settings.gradient.onset_energy);
   const GmresStatus status = report.adjoints.status();
-  if (context.check && status == GmresStatus::converged && variables.size() > 0)
-    report.check = run_check(context, primal.objective, variables, report.derivatives);
+  std::optional<SolveFailure> unchecked;
+  if (context.check && status == GmresStatus::converged && variables.size() > 0) {
+    try {
+      report.check = run_check(context, primal.objective, variables, report.derivatives);
+    } catch (const SolveFailure& failure) {
+      unchecked = failure;
+    }
+  }
   report_gradient(context, variables, shape, report);
+  if (unchecked) {
+    context.result.message = fmt::format("the gradient stands unchecked: {}", unchecked->what());
+    return unchecked->status();
+  }
   if (status != GmresStatus::converged) {
     context.result.message = fmt::format(
         "the adjoint equations were solved to {:.1e}, not to gradient.tolerance = {:g} ({}); a longer "

@@ -29,4 +29,14 @@ struct FlowPoint {
   double kappa = 0.0;
 };
 
+// The ghost cells of w, [instance][ghost cell][variable]. Collective.
+template <int Dim>
+std::vector<double> ghost_cells(const FlowEquations<Dim>& flow, std::span<const double> w) {
+  constexpr int n = state_size<Dim>;
+  const FlowDomain<Dim>& domain = flow.domain();
+  std::vector<double> ghosts(flow.instance_count() * static_cast<std::size_t>(domain.ghost_count()) * n);
+  domain.exchange().template gather<double>(w, ghosts, flow.time().instances(), n);
+  return ghosts;
+}
+
 }  // namespace wingbeat

@@ -98,12 +98,10 @@ template <int Dim>
 FlowInputs<Dim> flow_sensitivity(const FlowEquations<Dim>& flow, const FlowPoint& at,
                                  std::span<const double> multipliers,
                                  std::span<const Loads<double>> weights) {
-  constexpr int n = state_size<Dim>;
   const FlowDomain<Dim>& domain = flow.domain();
   const std::size_t count = domain.state_count(), instances = flow.instance_count();
-  const std::size_t ghost_count = static_cast<std::size_t>(domain.ghost_count()) * n;
-  std::vector<double> ghosts(instances * ghost_count);
-  domain.exchange().template gather<double>(at.w, ghosts, flow.time().instances(), n);
+  const std::vector<double> ghosts = ghost_cells(flow, at.w);
+  const std::size_t ghost_count = ghosts.size() / instances;
 
   FlowInputs<Dim> result(flow);
   FluxBalance<Dim, D> stream_balance(domain, seeded(flow.model()));

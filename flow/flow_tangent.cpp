@@ -68,12 +68,10 @@ void add_time_change(const FlowEquations<Dim>& flow, const FlowPoint& at, const 
 
 template <int Dim>
 FlowTangent flow_tangent(const FlowEquations<Dim>& flow, const FlowPoint& at, const FlowInputs<Dim>& change) {
-  constexpr int n = state_size<Dim>;
   const FlowDomain<Dim>& domain = flow.domain();
   const std::size_t count = domain.state_count(), instances = flow.instance_count();
-  const std::size_t ghost_count = static_cast<std::size_t>(domain.ghost_count()) * n;
-  std::vector<double> ghosts(instances * ghost_count);
-  domain.exchange().template gather<double>(at.w, ghosts, flow.time().instances(), n);
+  const std::vector<double> ghosts = ghost_cells(flow, at.w);
+  const std::size_t ghost_count = ghosts.size() / instances;
 
   const FlowModel<Dim, D> model = changing(flow.model(), change);
   FluxBalance<Dim, D> balance(domain, model);
