@@ -9,7 +9,7 @@ void solve_near_roundoff(const Comm& comm, Problem& problem, std::span<double> u
   std::vector<double> f(u.size());
   const bool is_evaluated = problem.residual(u, f);
   if (comm.any(!is_evaluated) || !(comm.max(problem.excess(f)) <= slack))
-    throw SolveFailure(solved.status, what + " has not converged at changed parameters");
+    throw SolveFailure(solved.status, what + " has not converged at the parameters of its gradient");
 }
 
 }  // namespace wingbeat

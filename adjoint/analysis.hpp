@@ -12,9 +12,11 @@ template <int Dim>
 class Analysis {
  public:
   virtual ~Analysis() = default;
-  // Solves at the base's parameters plus `change`, from the last solution, and linearizes there. Throws
-  // SolveFailure where it does not converge. Collective.
+  // Solves at the base's parameters plus `change`, from the solution kept last, at first the base's, and
+  // linearizes there. Throws SolveFailure where it does not converge. Collective.
   virtual void solve(const Parameters<Dim>& change) = 0;
+  // Keeps the last solution as the start of the next.
+  virtual void keep() = 0;
   // At the last solution.
   virtual const Functional<Dim>& functional() const = 0;
   virtual ParameterPoint<Dim> point() const = 0;
@@ -23,7 +25,7 @@ class Analysis {
 };
 
 // Newton's method from u to the problem's own tolerances or, where round-off keeps it from them, to within
-// `slack` times these; throws SolveFailure saying `what` has not converged. Collective.
+// `slack` times these; throws SolveFailure naming `what`. Collective.
 void solve_near_roundoff(const Comm& comm, Problem& problem, std::span<double> u, const NewtonOptions& options,
                          double slack, const std::string& what);
 

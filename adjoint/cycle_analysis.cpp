@@ -22,16 +22,16 @@ int harmonics_of(const AeroelasticState& state) {
 
 template <int Dim>
 CycleAnalysis<Dim>::CycleAnalysis(const DomainBase<Dim>& base, const TypicalSection& section,
-                                  double mean_pitch, AeroelasticState state, AeroelasticState rest,
+                                  double mean_pitch, AeroelasticState start, AeroelasticState rest,
                                   HarmonicFactors factors, const CycleAnalysisOptions& options)
     : base_(base),
       section_(section),
       mean_pitch_(mean_pitch),
-      state_(std::move(state)),
+      start_(std::move(start)),
       rest_(std::move(rest)),
       factors_(std::move(factors)),
       options_(options),
-      time_(harmonics_of(state_)),
+      time_(harmonics_of(start_)),
       changed_section_(section) {}
 
 template <int Dim>
@@ -55,11 +55,14 @@ void CycleAnalysis<Dim>::solve(const Parameters<Dim>& change) {
   SectionKinematics kinematics;
   kinematics.flow_speed = at_->model.freestream.speed();
   kinematics.mean_pitch = mean_pitch_;
+  const CycleCondition row = condition(model);
   problem_ = std::make_unique<AeroelasticProblem<Dim>>(at_->flow, StructuralEquation(model, time_), kinematics,
-                                                       condition(model), rest_, factors_, options_.tolerances);
-  u_ = problem_->unknowns(state_);
+                                                       row, rest_, factors_, options_.tolerances);
+  u_ = problem_->unknowns(start_);
   solve_near_roundoff(base_.comm, *problem_, u_, options_.newton, options_.slack, "the cycle");
   state_ = problem_->state(u_);
+  if (is_at_rest(row, state_.y))
+    throw SolveFailure(SolveStatus::stalled, "no cycle was found at the given speed and changed parameters");
   problem_->linearize(u_);
   if (!problem_->is_factored()) problem_->refactor();
   make_functional();

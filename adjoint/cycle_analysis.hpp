@@ -20,16 +20,17 @@ struct CycleAnalysisOptions {
 template <int Dim>
 class CycleAnalysis final : public Analysis<Dim> {
  public:
-  // `state`: the base's solution; `rest`: one instance that its amplitude is measured from; `factors`: of
+  // `start`: the base's solution; `rest`: one instance that its amplitude is measured from; `factors`: of
   // matrices near its Jacobian's.
   CycleAnalysis(const DomainBase<Dim>& base, const TypicalSection& section, double mean_pitch,
-                AeroelasticState state, AeroelasticState rest, HarmonicFactors factors,
+                AeroelasticState start, AeroelasticState rest, HarmonicFactors factors,
                 const CycleAnalysisOptions& options);
 
   void solve(const Parameters<Dim>& change) override;
   const Functional<Dim>& functional() const override { return *functional_; }
   ParameterPoint<Dim> point() const override;
   void refactor() override { problem_->refactor(); }
+  void keep() override { start_ = state_; }
   const AeroelasticState& state() const { return state_; }
   // Another number of the same cycle from now on.
   void choose(CycleQuantity quantity);
@@ -41,12 +42,13 @@ class CycleAnalysis final : public Analysis<Dim> {
   DomainBase<Dim> base_;
   TypicalSection section_;
   double mean_pitch_;
-  AeroelasticState state_;
+  AeroelasticState start_;
   AeroelasticState rest_;
   HarmonicFactors factors_;
   CycleAnalysisOptions options_;
   TimeSpectral time_;
   // Of the last solution.
+  AeroelasticState state_;
   TypicalSection changed_section_;
   std::unique_ptr<ChangedDomain<Dim>> at_;
   std::vector<double> u_;

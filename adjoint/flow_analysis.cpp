@@ -6,13 +6,13 @@ namespace wingbeat {
 
 template <int Dim>
 FlowAnalysis<Dim>::FlowAnalysis(const DomainBase<Dim>& base, const TimeSpectral& time, ForcedMotion motion,
-                                double reduced_frequency, std::vector<double> w, HarmonicFactors factors,
+                                double reduced_frequency, std::vector<double> start, HarmonicFactors factors,
                                 FlowAnalysisOptions options)
     : base_(base),
       time_(time),
       motion_(std::move(motion)),
       reduced_frequency_(reduced_frequency),
-      w_(std::move(w)),
+      start_(std::move(start)),
       factors_(std::move(factors)),
       options_(std::move(options)) {}
 
@@ -24,6 +24,7 @@ void FlowAnalysis<Dim>::solve(const Parameters<Dim>& change) {
   kappa_ = 2.0 * reduced_frequency_ * at_->model.freestream.speed();
   motions_ = motions_of(motion_, time_, kappa_);
   problem_ = std::make_unique<ForcedFlowProblem<Dim>>(at_->flow, motions_, kappa_, factors_, options_.tolerance);
+  w_ = start_;
   solve_near_roundoff(base_.comm, *problem_, w_, options_.newton, options_.slack, "the flow");
   at_->flow.linearize(w_, motions_, kappa_);
   if (!problem_->is_factored()) problem_->refactor();

@@ -28,16 +28,17 @@ struct FlowAnalysisOptions {
 template <int Dim>
 class FlowAnalysis final : public Analysis<Dim> {
  public:
-  // `w`: the base's solution, `factors`: of matrices near its Jacobian's. The reduced frequency k is kept
+  // `start`: the base's solution, `factors`: of matrices near its Jacobian's. The reduced frequency k is kept
   // as the free stream changes.
   FlowAnalysis(const DomainBase<Dim>& base, const TimeSpectral& time, ForcedMotion motion,
-               double reduced_frequency, std::vector<double> w, HarmonicFactors factors,
+               double reduced_frequency, std::vector<double> start, HarmonicFactors factors,
                FlowAnalysisOptions options);
 
   void solve(const Parameters<Dim>& change) override;
   const Functional<Dim>& functional() const override { return *functional_; }
   ParameterPoint<Dim> point() const override;
   void refactor() override { problem_->refactor(); }
+  void keep() override { start_ = w_; }
   // Another number of the same loads from now on.
   void choose(std::vector<WeightedLoad> objective);
 
@@ -48,10 +49,11 @@ class FlowAnalysis final : public Analysis<Dim> {
   TimeSpectral time_;
   ForcedMotion motion_;
   double reduced_frequency_;
-  std::vector<double> w_;
+  std::vector<double> start_;
   HarmonicFactors factors_;
   FlowAnalysisOptions options_;
   // Of the last solution.
+  std::vector<double> w_;
   std::unique_ptr<ChangedDomain<Dim>> at_;
   std::vector<MotionState> motions_;
   double kappa_ = 0.0;

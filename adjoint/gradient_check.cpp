@@ -50,18 +50,21 @@ class Values {
   const std::function<void()>& on_solution_;
 };
 
+// What counts as a derivative beside the objective itself, over a variable's scale: less is round-off's.
+double least_derivative(double value) { return 1e-3 * std::abs(value) + 1e-9; }
+
 // |differences - gradient| over the greatest derivative of its kind, the worst.
 double worst_departure(const DesignVariables& variables, std::span<const double> gradient,
-                       std::span<const double> differences) {
+                       std::span<const double> differences, double least) {
   double worst = 0.0;
   for (const bool is_bump : {true, false}) {
-    double size = 0.0, departure = 0.0;
+    double size = least, departure = 0.0;
     for (std::size_t i = 0; i < variables.size(); ++i) {
       if ((i < variables.bump_count()) != is_bump) continue;
       size = std::max(size, std::abs(gradient[i]) * variables.scale(i));
       departure = std::max(departure, std::abs(differences[i] - gradient[i]) * variables.scale(i));
     }
-    if (departure > 0.0) worst = std::max(worst, departure / size);
+    worst = std::max(worst, departure / size);
   }
   return worst;
 }
@@ -94,14 +97,16 @@ GradientCheck check_gradient(const Comm& comm, Objective<2>& objective, const De
   const double by_adjoint = local_dot(variables.derivatives(comm, exact), direction);
   const double by_tangent =
       objective_derivative(objective, variables.change(direction), options.gmres).value;
-  check.tangent = std::abs(by_adjoint - by_tangent) / std::abs(by_tangent);
+  const double least = least_derivative(objective.value());
+  const double size = std::max(std::abs(by_tangent), least);
+  check.tangent = std::abs(by_adjoint - by_tangent) / size;
 
   Values values(objective, variables, on_solution);
   check.finite_difference = std::numeric_limits<double>::infinity();
   for (double step = 0.1; step > 1e-4; step *= 0.2) {
     const auto difference = values.try_central(direction, step);
     if (!difference) continue;  // a long step may lead where there is no solution
-    const double error = std::abs(*difference - by_adjoint) / std::abs(by_adjoint);
+    const double error = std::abs(*difference - by_adjoint) / size;
     check.steps.push_back({step, *difference, error});
     check.finite_difference = std::min(check.finite_difference, error);
   }
@@ -111,7 +116,7 @@ GradientCheck check_gradient(const Comm& comm, Objective<2>& objective, const De
       one[i] = 1.0;
       check.differences.push_back(values.central(one, options.difference_step * variables.scale(i)));
     }
-    check.finite_difference = worst_departure(variables, gradient, check.differences);
+    check.finite_difference = worst_departure(variables, gradient, check.differences, least);
   }
   values.at(direction, 0.0);
   return check;

@@ -20,7 +20,8 @@ struct GradientCheck {
   double tangent = 0.0;    // relative difference of adjoint and tangent along a random direction
   std::vector<DifferenceStep> steps;  // those that lead to solutions
   // Central differences one by one, [variable], where asked for; and the greatest departure of the gradient from
-  // them, over the greatest derivative of its kind (bumps, or single numbers, times their scales). Where they are
+  // them, over the greatest derivative of its kind (bumps, or single numbers, times their scales), or over a
+  // thousandth of the objective where that is more. Where they are
   // not asked for, the least error of the steps.
   std::vector<double> differences;
   double finite_difference = 0.0;

@@ -16,6 +16,11 @@ void Objective<Dim>::solve(const Parameters<Dim>& change) {
 }
 
 template <int Dim>
+void Objective<Dim>::keep() {
+  for (const Term& term : terms) term.analysis->keep();
+}
+
+template <int Dim>
 double Objective<Dim>::value() const {
   double sum = 0.0;
   for (const Term& term : terms) sum += term.weight * term.analysis->functional().value();

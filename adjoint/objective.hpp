@@ -18,6 +18,8 @@ struct Objective {
 
   // All terms solved at a change of the parameters. Collective; throws SolveFailure.
   void solve(const Parameters<Dim>& change);
+  // Keeps the solutions as starts of the next.
+  void keep();
   // At the last solution.
   double value() const;
   std::vector<double> weights() const;

@@ -156,12 +156,14 @@ CycleSolution CycleSolver::solve_coupled(const std::string& stage, const CycleSt
              });
   solution.status = result.status;
   solution.state = problem.state(u);
+  if (solution.status == SolveStatus::converged && is_at_rest(condition, solution.state.y))
+    solution.status = SolveStatus::stalled;
   solution.newton_iterations = result.iterations;
   solution.linear_iterations = result.linear_iterations;
   solution.factorizations = result.factorizations;
   solution.factor_bytes = context_.comm.sum(factor_bytes(start.factors));
   solution.loads = flow.loads(solution.state.w, problem.motions(solution.state));
-  if (how.with_tangent && result.status == SolveStatus::converged) {
+  if (how.with_tangent && solution.status == SolveStatus::converged) {
     const auto slope = context_.timer.measure("branch slope");
     GmresOptions gmres = options.gmres;
     gmres.relative_tolerance = slope_tolerance(condition.energy.energy);

@@ -59,10 +59,14 @@ std::vector<std::string> gradient_faults(const CaseSettings& settings) {
   if (gradient.is_of_loads()) {
     if (gradient.analysis == "pitch") {
       faults = pitch_faults(settings);
+      if (gradient.harmonic == 0 && gradient.part == "imaginary")
+        faults.push_back("gradient.part = \"imaginary\": the mean, gradient.harmonic = 0, is real; name a harmonic");
       if (gradient.harmonic > settings.time.harmonics)
         faults.push_back(fmt::format("gradient.harmonic = {}: the period has {} (time.harmonics)",
                                      gradient.harmonic, settings.time.harmonics));
     }
+    if (gradient.analysis == "steady" && (gradient.harmonic != 0 || gradient.part != "real"))
+      faults.push_back("gradient.harmonic: steady loads have none; set gradient.analysis to pitch");
     if (gradient.fixed_lift && (gradient.analysis == "pitch" || gradient.objective == "lift"))
       faults.push_back(
           "gradient.fixed_lift: holds the lift of steady drag or moment; set gradient.objective to drag or "
@@ -146,6 +150,8 @@ SolveStatus run_gradient(Context& context) {
         report.adjoints.relative_residual(), settings.gradient.tolerance, to_string(status));
     return SolveStatus::stalled;
   }
+  if (context.check && variables.size() == 0)
+    context.log.line("nothing was checked: gradient.parameters names no variables");
   context.result.message = fmt::format("{} = {:.8g}, derivatives with respect to {} parameters",
                                        settings.gradient.objective, report.value, variables.size());
   return SolveStatus::converged;

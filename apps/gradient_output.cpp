@@ -65,10 +65,12 @@ void print(Context& context, const DesignVariables& variables, const GradientRep
   constexpr std::size_t most = 60;
   log.line("\n{} = {:.10g}", context.settings.gradient.objective, report.value);
   const bool has_differences = report.check && !report.check->differences.empty();
-  log.line("{:<26}{:>20}{}", "parameter", "derivative", has_differences ? "          difference" : "");
+  log.line("{:<26}{:>20}{}{}", "parameter", "derivative", has_differences ? "          difference" : "",
+           report.errors.empty() ? "" : "     error");
   for (std::size_t i = 0; i < std::min(variables.size(), most); ++i)
-    log.line("{:<26}{:>20.10e}{}", variables.name(i), report.derivatives[i],
-             has_differences ? fmt::format("{:>20.10e}", difference_of(report, i)) : "");
+    log.line("{:<26}{:>20.10e}{}{}", variables.name(i), report.derivatives[i],
+             has_differences ? fmt::format("{:>20.10e}", difference_of(report, i)) : "",
+             report.errors.empty() ? "" : fmt::format("{:>10.1e}", report.errors[i]));
   if (variables.size() > most) log.line("... {} more in gradient.csv", variables.size() - most);
   log.line("adjoint: {} Krylov iterations, residual {:.1e}", report.adjoints.iterations(),
            report.adjoints.relative_residual());

@@ -55,8 +55,8 @@ FlowAnalysisOptions load_options(const Context& context, double tolerance) {
   return options;
 }
 
-// J - mu C_L with mu = (dJ/d angle)/(dC_L/d angle): stationary in the angle, so that its derivatives are those
-// of J where the angle holds the lift (eq:fixed-lift). Returns mu C_L.
+// J - chi C_L with chi = (dJ/d angle)/(dC_L/d angle): stationary in the angle, so that its derivatives are those
+// of J where the angle holds the lift (eq:fixed-lift). Returns chi C_L.
 double hold_lift(const Context& context, FlowAnalysis<2>& analysis, const ShapeVariables& shape) {
   const LoadQuantity quantity = load_quantity(context.settings.gradient), lift{LoadCoefficient::lift};
   Parameters<2> turn = no_change(shape.nodes());
@@ -65,9 +65,13 @@ double hold_lift(const Context& context, FlowAnalysis<2>& analysis, const ShapeV
   gmres.relative_tolerance = context.settings.gradient.tolerance;
   const auto slope = [&](const LoadQuantity& of) {
     analysis.choose({{1.0, of}});
-    return directional_derivative(analysis.functional(), analysis.point(), turn, gmres).value;
+    const auto derivative = directional_derivative(analysis.functional(), analysis.point(), turn, gmres);
+    if (derivative.solve.status != GmresStatus::converged)
+      throw SolveFailure(SolveStatus::stalled, "the derivative by the angle, which holds the lift, was not found");
+    return derivative.value;
   };
-  const double by_lift = slope(quantity) / slope(lift);
+  const double by_angle = slope(quantity);
+  const double by_lift = by_angle / slope(lift);
   const double held = by_lift * analysis.functional().value();
   analysis.choose({{1.0, quantity}, {-by_lift, lift}});
   return held;
@@ -87,6 +91,7 @@ GradientPrimal steady_loads(Context& context, FlowLevels<2>& levels, const Shape
       domain_base(context, level, shape), TimeSpectral(0), rest, 0.0, level.w, HarmonicFactors{level.solver, {}},
       load_options(context, solver.steady_target()));
   analysis->solve(no_change(shape.nodes()));
+  analysis->keep();
   if (context.settings.gradient.fixed_lift) primal.value_offset = hold_lift(context, *analysis, shape);
   primal.objective.terms.push_back({1.0, std::move(analysis)});
   return primal;
@@ -107,6 +112,7 @@ GradientPrimal forced_loads(Context& context, FlowLevels<2>& levels, const Shape
       domain_base(context, level, shape), time, forced_motion(settings.pitch), *settings.pitch.reduced_frequency,
       std::move(stage.flow.w), std::move(stage.flow.factors), load_options(context, settings.solver.flow_tolerance));
   analysis->solve(no_change(shape.nodes()));
+  analysis->keep();
   primal.objective.terms.push_back({1.0, std::move(analysis)});
   return primal;
 }
@@ -251,6 +257,7 @@ class CyclePrimal {
         domain_base(context_, level_, shape_), typical_section(settings_.structure),
         section_kinematics(settings_).mean_pitch, solution.state, start.rest, std::move(factors), options);
     analysis->solve(no_change(shape_.nodes()));
+    analysis->keep();
     primal.objective.terms.push_back({weight, std::move(analysis)});
   }
 

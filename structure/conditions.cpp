@@ -71,6 +71,12 @@ EnergyCondition energy_condition(const StructureModel& model, double energy) {
   return {model, energy};
 }
 
+bool is_at_rest(const CycleCondition& condition, std::span<const double> y) {
+  constexpr double vanished = 1e-3;
+  return condition.by_energy == 0.0 &&
+         fluctuating_energy(condition.energy.model, y) < vanished * condition.energy.energy;
+}
+
 double value(const AmplitudeCondition& condition, std::span<const double> y) {
   return std::visit([y](const auto& c) { return value_of(c, y); }, condition);
 }

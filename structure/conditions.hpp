@@ -46,6 +46,10 @@ struct CycleCondition {
   CycleCondition(EnergyCondition of) : energy(std::move(of)) {}
 };
 
+// True of a solution that answers a given speed by rest, which solves all other rows at any speed: its energy
+// has vanished beside E_0, which was near that of the start.
+bool is_at_rest(const CycleCondition& condition, std::span<const double> y);
+
 using AmplitudeCondition = std::variant<EnergyCondition, HarmonicCondition>;
 
 double value(const AmplitudeCondition& condition, std::span<const double> y);
