@@ -17,9 +17,9 @@ AdjointSolution solve_adjoint(const Comm& comm, const Problem& problem, std::spa
                               const GmresOptions& options) {
   AdjointSolution solution{std::vector<double>(by_state.size(), 0.0), {}};
   const std::vector<double> rhs = negative(by_state);
-  solution.solve = gmres<double>(comm, TransposedOperator<double>(problem.jacobian()),
-                                 TransposedOperator<double>(problem.preconditioner()), rhs,
-                                 solution.multipliers, options);
+  solution.solve =
+      gmres<double>(comm, TransposedOperator<double>(problem.jacobian()),
+                    TransposedOperator<double>(problem.preconditioner()), rhs, solution.multipliers, options);
   return solution;
 }
 
@@ -27,7 +27,8 @@ TangentSolution solve_tangent(const Comm& comm, const Problem& problem, std::spa
                               const GmresOptions& options) {
   TangentSolution solution{std::vector<double>(rows.size(), 0.0), {}};
   const std::vector<double> rhs = negative(rows);
-  solution.solve = gmres<double>(comm, problem.jacobian(), problem.preconditioner(), rhs, solution.state, options);
+  solution.solve =
+      gmres<double>(comm, problem.jacobian(), problem.preconditioner(), rhs, solution.state, options);
   return solution;
 }
 

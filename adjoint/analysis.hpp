@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <string>
 
 #include "adjoint/adjoint.hpp"
@@ -26,8 +25,8 @@ class Analysis {
 
 // Newton's method from u to the problem's own tolerances or, where round-off keeps it from them, to within
 // `slack` times these; throws SolveFailure naming `what`. Collective.
-void solve_near_roundoff(const Comm& comm, Problem& problem, std::span<double> u, const NewtonOptions& options,
-                         double slack, const std::string& what);
+void solve_near_roundoff(const Comm& comm, Problem& problem, std::span<double> u,
+                         const NewtonOptions& options, double slack, const std::string& what);
 
 // No change.
 template <int Dim>

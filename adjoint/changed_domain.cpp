@@ -49,8 +49,8 @@ ChangedDomain<Dim>::ChangedDomain(const DomainBase<Dim>& base, const Parameters<
   const auto volumes = domain.volumes();
   if (base.comm.any(std::ranges::any_of(volumes, [](double volume) { return !(volume > 0.0); })))
     throw SolveFailure(SolveStatus::diverged,
-                       "the deformed mesh has a cell without positive volume; smaller bumps, or another "
-                       "design.deformation, keep the cells whole");
+                       "the deformed mesh has a cell without positive volume; lower design.bound, or set "
+                       "design.deformation to the other of grid_lines and inverse_distance");
 }
 
 template struct ChangedDomain<2>;

@@ -56,8 +56,8 @@ void CycleAnalysis<Dim>::solve(const Parameters<Dim>& change) {
   kinematics.flow_speed = at_->model.freestream.speed();
   kinematics.mean_pitch = mean_pitch_;
   const CycleCondition row = condition(model);
-  problem_ = std::make_unique<AeroelasticProblem<Dim>>(at_->flow, StructuralEquation(model, time_), kinematics,
-                                                       row, rest_, factors_, options_.tolerances);
+  problem_ = std::make_unique<AeroelasticProblem<Dim>>(at_->flow, StructuralEquation(model, time_),
+                                                       kinematics, row, rest_, factors_, options_.tolerances);
   u_ = problem_->unknowns(start_);
   solve_near_roundoff(base_.comm, *problem_, u_, options_.newton, options_.slack, "the cycle");
   state_ = problem_->state(u_);
@@ -76,7 +76,8 @@ void CycleAnalysis<Dim>::choose(CycleQuantity quantity) {
 
 template <int Dim>
 void CycleAnalysis<Dim>::make_functional() {
-  functional_ = std::make_unique<CycleFunctional<Dim>>(*problem_, changed_section_, state_, options_.quantity);
+  functional_ =
+      std::make_unique<CycleFunctional<Dim>>(*problem_, changed_section_, state_, options_.quantity);
 }
 
 template <int Dim>

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <memory>
+#include <optional>
+
 #include "adjoint/analysis.hpp"
 #include "adjoint/changed_domain.hpp"
 #include "adjoint/cycle_functional.hpp"
@@ -9,7 +12,7 @@ namespace wingbeat {
 // Which cycle is meant whatever the parameters are, and which number of it.
 struct CycleAnalysisOptions {
   CycleQuantity quantity = CycleQuantity::speed;
-  double energy = 1e-6;                    // E_0: given, or near that of the cycle where its speed is given
+  double energy = 1e-6;                      // E_0: given, or near that of the cycle where its speed is given
   std::optional<double> reduced_velocity{};  // the speed where that is given
   AeroelasticTolerances tolerances{1e-12, 1e-12};  // aimed at
   double slack = 100.0;                            // times the tolerances are accepted

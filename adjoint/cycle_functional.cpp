@@ -53,14 +53,14 @@ double CycleFunctional<Dim>::value() const {
       break;
   }
   const auto [sine, cosine] = first_harmonic(problem_.structure());
-  return degrees *
-         std::hypot(wingbeat::value(AmplitudeCondition(sine), state_.y), wingbeat::value(AmplitudeCondition(cosine), state_.y));
+  return degrees * std::hypot(wingbeat::value(AmplitudeCondition(sine), state_.y),
+                              wingbeat::value(AmplitudeCondition(cosine), state_.y));
 }
 
 template <int Dim>
 std::vector<double> CycleFunctional<Dim>::by_state() const {
-  AeroelasticState by{std::vector<double>(state_.w.size(), 0.0), std::vector<double>(state_.y.size(), 0.0), 0.0,
-                      0.0};
+  AeroelasticState by{std::vector<double>(state_.w.size(), 0.0), std::vector<double>(state_.y.size(), 0.0),
+                      0.0, 0.0};
   switch (quantity_) {
     case CycleQuantity::speed:
       by.r = reduced_velocity() / (2.0 * state_.r);
@@ -91,7 +91,8 @@ InputTangent CycleFunctional<Dim>::tangent(const Inputs<Dim>& change) const {
   double energy = 0.0;
   for (std::size_t k = 0; k < section_scalar_count; ++k) {
     energy += change.section[k] * energy_by_[k];
-    for (std::size_t i = 0; i < structure.size(); ++i) structure[i] += change.section[k] * structure_by_[k][i];
+    for (std::size_t i = 0; i < structure.size(); ++i)
+      structure[i] += change.section[k] * structure_by_[k][i];
   }
   const CycleCondition& cycle = *problem_.cycle();
   return {problem_.rows(flow.residual, structure, cycle.by_energy * energy / cycle.energy.energy),
@@ -108,8 +109,8 @@ Inputs<Dim> CycleFunctional<Dim>::sensitivity(std::span<const double> multiplier
     weights.push_back({0.0, -by_force[j], 2.0 * by_force[j + 1]});
   Inputs<Dim> result(flow_sensitivity<Dim>(problem_.flow(), point(), lambda.flow, weights));
   const CycleCondition& cycle = *problem_.cycle();
-  const double by_energy = lambda.cycle * cycle.by_energy / cycle.energy.energy +
-                           (quantity_ == CycleQuantity::energy ? 1.0 : 0.0);
+  const double by_energy =
+      lambda.cycle * cycle.by_energy / cycle.energy.energy + (quantity_ == CycleQuantity::energy ? 1.0 : 0.0);
   for (std::size_t k = 0; k < section_scalar_count; ++k)
     result.section[k] = local_dot(lambda.structure, structure_by_[k]) + by_energy * energy_by_[k];
   return result;

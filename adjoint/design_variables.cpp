@@ -33,8 +33,9 @@ DesignVariables::DesignVariables(const GradientSettings& settings, const ShapeVa
   if (settings.has("mach")) scalars_.push_back(Scalar::mach);
   if (settings.has("angle_of_attack")) scalars_.push_back(Scalar::angle_of_attack);
   if (settings.has("structure"))
-    scalars_.insert(scalars_.end(), {Scalar::elastic_axis, Scalar::static_unbalance, Scalar::gyration_radius_squared,
-                                     Scalar::frequency_ratio, Scalar::mass_ratio});
+    scalars_.insert(scalars_.end(),
+                    {Scalar::elastic_axis, Scalar::static_unbalance, Scalar::gyration_radius_squared,
+                     Scalar::frequency_ratio, Scalar::mass_ratio});
   for (const Scalar scalar : scalars_) {
     names_.push_back(scalar_names[static_cast<std::size_t>(scalar)]);
     scales_.push_back(scale_of(scalar));
@@ -52,9 +53,10 @@ Parameters<2> DesignVariables::change(std::span<const double> variables) const {
   return change;
 }
 
-std::vector<double> DesignVariables::derivatives(const Comm& comm, const Parameters<2>& sensitivity) const {
+std::vector<double> DesignVariables::derivatives(std::span<const Vec<double, 2>> wall,
+                                                 const Parameters<2>& sensitivity) const {
   std::vector<double> result;
-  if (bump_count_ > 0) result = shape_.amplitude_gradient(shape_.wall_sensitivity(comm, sensitivity.nodes));
+  if (bump_count_ > 0) result = shape_.amplitude_gradient(wall);
   for (const Scalar scalar : scalars_) result.push_back(sensitivity[scalar]);
   return result;
 }

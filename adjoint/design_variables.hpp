@@ -23,8 +23,10 @@ class DesignVariables {
 
   // The change of all parameters that changes of the variables make.
   Parameters<2> change(std::span<const double> variables) const;
-  // The transpose: derivatives with respect to the variables. Collective.
-  std::vector<double> derivatives(const Comm& comm, const Parameters<2>& sensitivity) const;
+  // The transpose: derivatives with respect to the variables. `wall`: ShapeVariables::wall_sensitivity of the
+  // same sensitivities.
+  std::vector<double> derivatives(std::span<const Vec<double, 2>> wall,
+                                  const Parameters<2>& sensitivity) const;
 
  private:
   const ShapeVariables& shape_;

@@ -23,7 +23,8 @@ void FlowAnalysis<Dim>::solve(const Parameters<Dim>& change) {
   at_ = std::make_unique<ChangedDomain<Dim>>(base_, change, time_);
   kappa_ = 2.0 * reduced_frequency_ * at_->model.freestream.speed();
   motions_ = motions_of(motion_, time_, kappa_);
-  problem_ = std::make_unique<ForcedFlowProblem<Dim>>(at_->flow, motions_, kappa_, factors_, options_.tolerance);
+  problem_ =
+      std::make_unique<ForcedFlowProblem<Dim>>(at_->flow, motions_, kappa_, factors_, options_.tolerance);
   w_ = start_;
   solve_near_roundoff(base_.comm, *problem_, w_, options_.newton, options_.slack, "the flow");
   at_->flow.linearize(w_, motions_, kappa_);
@@ -43,9 +44,10 @@ void FlowAnalysis<Dim>::make_functional() {
   const double angle = std::atan2(freestream.angle_sine, freestream.angle_cosine);
   LoadFunctional sum;
   for (const auto& [weight, quantity] : options_.objective)
-    add_scaled(weight,
-               load_functional(quantity, time_, angle, motions_, at_->domain.axis(), options_.moment_reference),
-               sum);
+    add_scaled(
+        weight,
+        load_functional(quantity, time_, angle, motions_, at_->domain.axis(), options_.moment_reference),
+        sum);
   functional_ = std::make_unique<FlowFunctional<Dim>>(at_->flow, *problem_, FlowPoint{w_, motions_, kappa_},
                                                       std::move(sum));
 }

@@ -54,7 +54,8 @@ auto axis_moment(const Vec<A, 2>& axis, const Vec<T, Dim>& normal) {
 template <int Dim>
 BlockGeometry<Dim> geometry_change(const LocalBlock<Dim>& block, const BlockArray<int, Dim>& local,
                                    const BlockGeometry<Dim>& at, const Vec<double, 2>& axis,
-                                   std::span<const Vec<double, Dim>> nodes, const Vec<double, 2>& axis_change) {
+                                   std::span<const Vec<double, Dim>> nodes,
+                                   const Vec<double, 2>& axis_change) {
   using D = Dual<double, 1>;
   BlockGeometry<Dim> change(at.layout);
   for (int d = 0; d < Dim; ++d)

@@ -15,7 +15,8 @@ namespace wingbeat {
 template <int Dim>
 BlockGeometry<Dim> geometry_change(const LocalBlock<Dim>& block, const BlockArray<int, Dim>& local,
                                    const BlockGeometry<Dim>& at, const Vec<double, 2>& axis,
-                                   std::span<const Vec<double, Dim>> nodes, const Vec<double, 2>& axis_change);
+                                   std::span<const Vec<double, Dim>> nodes,
+                                   const Vec<double, 2>& axis_change);
 
 // Adds sensitivities to the geometry to those to the nodes; returns those to the axis.
 template <int Dim>

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <random>
 
 #include "core/algebra/krylov_kernels.hpp"
@@ -83,20 +85,20 @@ double transpose_defect(const Comm& comm, const LinearOperator<double>& op) {
 }
 
 GradientCheck check_gradient(const Comm& comm, Objective<2>& objective, const DesignVariables& variables,
-                             const std::vector<double>& gradient, const GradientCheckOptions& options,
-                             const std::function<void()>& on_solution) {
+                             const ShapeVariables& shape, const std::vector<double>& gradient,
+                             const GradientCheckOptions& options, const std::function<void()>& on_solution) {
   GradientCheck check;
   for (const auto& term : objective.terms)
-    check.transpose = std::max(
-        check.transpose, transpose_defect(comm, term.analysis->functional().problem().jacobian()));
+    check.transpose =
+        std::max(check.transpose, transpose_defect(comm, term.analysis->functional().problem().jacobian()));
 
   std::vector<double> direction = random_numbers(variables.size(), 1);
   for (std::size_t i = 0; i < variables.size(); ++i) direction[i] *= variables.scale(i);
   const auto exact = weighted_sum(term_derivatives(objective, solve_adjoints(objective, options.gmres)),
                                   objective.weights());
-  const double by_adjoint = local_dot(variables.derivatives(comm, exact), direction);
-  const double by_tangent =
-      objective_derivative(objective, variables.change(direction), options.gmres).value;
+  const double by_adjoint =
+      local_dot(variables.derivatives(shape.wall_sensitivity(comm, exact.nodes), exact), direction);
+  const double by_tangent = objective_derivative(objective, variables.change(direction), options.gmres).value;
   const double least = least_derivative(objective.value());
   const double size = std::max(std::abs(by_tangent), least);
   check.tangent = std::abs(by_adjoint - by_tangent) / size;

@@ -17,18 +17,20 @@ bool GradientSettings::is_of_given_speed() const {
 }
 
 void GradientSettings::describe(SettingSection& keys) {
-  keys.add("objective", &objective,
-           {.help = "drag, lift, moment: of the flow named by analysis; flutter_speed (V), flutter_frequency "
-                    "(omega): at flutter.energy; lco_speed, lco_frequency: at the energy lco.energies; "
-                    "lco_amplitude (first harmonic of pitch, deg), lco_energy: at the speed "
-                    "lco.reduced_velocity; onset_slope: dV/dE_0 near the onset, by differences of three cycles",
-            .allowed = {"drag", "lift", "moment", "flutter_speed", "flutter_frequency", "lco_speed",
-                        "lco_frequency", "lco_amplitude", "lco_energy", "onset_slope"}});
-  keys.add("parameters", &parameters,
-           {.help = "bumps: amplitudes of the shape variables (see design), in chords; mach; angle_of_attack, "
-                    "in degrees; structure: elastic axis, static unbalance, radius of gyration squared, "
-                    "frequency and mass ratio; nodes: every node of the mesh, to nodes.csv",
-            .allowed = {"bumps", "mach", "angle_of_attack", "structure", "nodes"}});
+  keys.add(
+      "objective", &objective,
+      {.help = "drag, lift, moment: of the flow named by analysis; flutter_speed (V), flutter_frequency "
+               "(omega): at flutter.energy; lco_speed, lco_frequency: at the energy lco.energies; "
+               "lco_amplitude (first harmonic of pitch, deg), lco_energy: at the speed "
+               "lco.reduced_velocity; onset_slope: dV/dE_0 near the onset, by differences of three cycles",
+       .allowed = {"drag", "lift", "moment", "flutter_speed", "flutter_frequency", "lco_speed",
+                   "lco_frequency", "lco_amplitude", "lco_energy", "onset_slope"}});
+  keys.add(
+      "parameters", &parameters,
+      {.help = "bumps: amplitudes of the shape variables (see design), in chords; mach; angle_of_attack, "
+               "in degrees; structure: elastic axis, static unbalance, radius of gyration squared, "
+               "frequency and mass ratio; nodes: every node of the mesh, to nodes.csv",
+       .allowed = {"bumps", "mach", "angle_of_attack", "structure", "nodes"}});
   keys.add("analysis", &analysis,
            {.help = "flow that drag, lift and moment are of: steady, or pitch, in the prescribed motion",
             .allowed = {"steady", "pitch"}});
@@ -50,9 +52,10 @@ void GradientSettings::describe(SettingSection& keys) {
            {.help = "with --check: step of the central differences, as a part of each parameter's scale "
                     "(bumps: design.bound)",
             .range = open_interval(0, 1)});
-  keys.add("max_differences", &max_differences,
-           {.help = "with --check: parameters that are differenced one by one; of more, a random direction is",
-            .range = between(0, 100000)});
+  keys.add(
+      "max_differences", &max_differences,
+      {.help = "with --check: parameters that are differenced one by one; of more, a random direction is",
+       .range = between(0, 100000)});
 }
 
 }  // namespace wingbeat

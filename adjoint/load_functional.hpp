@@ -19,9 +19,9 @@ struct LoadQuantity {
 
 // J = sum_n weights_n . loads_n, and how the weights change with what else they depend on.
 struct LoadFunctional {
-  std::vector<Loads<double>> weights;                  // [instance]
-  std::vector<Loads<double>> by_angle;                 // d weights / d angle of attack, radians
-  std::array<std::vector<Loads<double>>, 2> by_axis;   // d weights / d axis of rotation, chords
+  std::vector<Loads<double>> weights;                 // [instance]
+  std::vector<Loads<double>> by_angle;                // d weights / d angle of attack, radians
+  std::array<std::vector<Loads<double>>, 2> by_axis;  // d weights / d axis of rotation, chords
 
   double value(std::span<const Loads<double>> loads) const;
 };

@@ -7,7 +7,8 @@
 
 namespace wingbeat {
 
-// A number that is a sum over solved problems: of one, as a rule; of several where it is a difference of them.
+// A number that is a sum over solved problems: of one, as a rule; of several where it is a difference of
+// them.
 template <int Dim>
 struct Objective {
   struct Term {
@@ -25,8 +26,8 @@ struct Objective {
   std::vector<double> weights() const;
 };
 
-// The adjoint of every term at the last solution. Factors that do not lead near the tolerance are renewed once.
-// Collective.
+// The adjoint of every term at the last solution. Factors that do not lead near the tolerance are renewed
+// once. Collective.
 struct AdjointSolutions {
   std::vector<AdjointSolution> terms;
   int factorizations = 0;
@@ -41,7 +42,8 @@ AdjointSolutions solve_adjoints(const Objective<Dim>& objective, const GmresOpti
 // Derivatives of every term, without its weight, with respect to all parameters, as parameter_sensitivity
 // gives them; and their weighted sum. Collective.
 template <int Dim>
-std::vector<Parameters<Dim>> term_derivatives(const Objective<Dim>& objective, const AdjointSolutions& adjoints);
+std::vector<Parameters<Dim>> term_derivatives(const Objective<Dim>& objective,
+                                              const AdjointSolutions& adjoints);
 template <int Dim>
 Parameters<Dim> weighted_sum(const std::vector<Parameters<Dim>>& terms, const std::vector<double>& weights);
 

@@ -41,9 +41,9 @@ Parameters<Dim> parameter_sensitivity(const ParameterPoint<Dim>& point, const In
   result.nodes.resize(point.nodes.numbers.size());
   Vec<double, 2> by_axis{};
   for (std::size_t b = 0; b < domain.blocks().size(); ++b)
-    by_axis += add_node_sensitivity<Dim>(point.mesh.blocks[b], point.nodes.blocks[b],
-                                         domain.blocks()[b].geometry, domain.axis(), flow.geometry[b],
-                                         result.nodes);
+    by_axis +=
+        add_node_sensitivity<Dim>(point.mesh.blocks[b], point.nodes.blocks[b], domain.blocks()[b].geometry,
+                                  domain.axis(), flow.geometry[b], result.nodes);
   if (point.turns_about_elastic_axis)
     result[Scalar::elastic_axis] = semichord * (domain.comm().sum(by_axis[0]) + sensitivity.axis[0]);
   double by_rates = flow.kappa * point.at.kappa;

@@ -11,12 +11,12 @@ namespace wingbeat {
 // Parameters that are single numbers.
 enum class Scalar {
   mach,
-  angle_of_attack,         // degrees
-  elastic_axis,            // a, semichords
-  static_unbalance,        // x_alpha
+  angle_of_attack,          // degrees
+  elastic_axis,             // a, semichords
+  static_unbalance,         // x_alpha
   gyration_radius_squared,  // r_alpha^2
-  frequency_ratio,         // omega_h/omega_alpha
-  mass_ratio               // mu
+  frequency_ratio,          // omega_h/omega_alpha
+  mass_ratio                // mu
 };
 inline constexpr std::array scalar_names{"mach",
                                          "angle_of_attack_deg",

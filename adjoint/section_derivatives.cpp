@@ -85,7 +85,8 @@ std::vector<double> structure_tangent(const StructuralEquation& structure, std::
   Eigen::Map<Eigen::MatrixXd> rows(ds.data(), 2 * m, n);
   for (int i = 0; i < n; ++i) {
     const Eigen::VectorXd u = states.col(i).head(m), rate = states.col(i).tail(m);
-    Eigen::VectorXd force = model.damping * rate + model.stiffness * u - model.load_factor * speed * forces.col(i);
+    Eigen::VectorXd force =
+        model.damping * rate + model.stiffness * u - model.load_factor * speed * forces.col(i);
     for (const RestoringForce& spring : model.restoring) force[spring.mode] += spring.value(u[spring.mode]);
     Eigen::VectorXd by = change.damping * rate + change.stiffness * u -
                          change.load_factor * speed * forces.col(i) - change.mass * mass.solve(force);

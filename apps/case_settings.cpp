@@ -13,8 +13,8 @@ void CaseSettings::describe(SettingRegistry& registry) {
   registry.add_section("time", "The period in time.", time);
   registry.add_section(
       "structure", "The pitch-plunge section, made dimensionless by semichord and omega_alpha.", structure);
-  registry.add_section("modal", "A structure by its matrices, in place of [structure], for pk with a table of Q(k).",
-                       modal);
+  registry.add_section(
+      "modal", "A structure by its matrices, in place of [structure], for pk with a table of Q(k).", modal);
   registry.add_section("flutter", "The flutter boundary and its linear start.", flutter);
   registry.add_section("lco", "Which limit cycles are computed.", lco);
   registry.add_section("march", "A time-accurate march of flow and section.", march);

@@ -61,8 +61,8 @@ CycleStart CycleSolver::linear_start(LinearFlutterSolution<2>& linear, const Flo
   start.rest = linear.section->rest();
   start.factors = unfactored(level_.comm(), level_.subdomain, state_size<2>, time_.harmonics());
   if (&linearized == &level_) {
-    // The steady flow's factors are of a step on the way to it; those of the state of rest, where the level is
-    // linearized, save more iterations than they cost.
+    // The steady flow's factors are of a step on the way to it; those of the state of rest, where the level
+    // is linearized, save more iterations than they cost.
     level_.solver->factor<state_size<2>>(level_.steady.jacobians()[0], {});
     start.factors.mean = level_.solver;
     start.factors.harmonics[0] = linear.section->factors();

@@ -24,7 +24,8 @@ int sample_bump(const HicksHenne& bumps) { return bumps.bumps() * 5 / 6; }
 CsvTable gradient_table(const DesignVariables& variables, const GradientReport& report) {
   CsvTable table({"name", "derivative", "difference"});
   for (std::size_t i = 0; i < variables.size(); ++i)
-    table.add(std::vector<CsvTable::Cell>{variables.name(i), report.derivatives[i], difference_of(report, i)});
+    table.add(
+        std::vector<CsvTable::Cell>{variables.name(i), report.derivatives[i], difference_of(report, i)});
   return table;
 }
 
@@ -33,10 +34,10 @@ CsvTable wall_table(const ShapeVariables& shape, const std::vector<Vec<double, 2
                   "derivative_normal", "sample_bump"});
   const SectionWall& wall = shape.wall();
   for (std::size_t i = 0; i < wall.size(); ++i)
-    table.add(std::vector<double>{wall.s[i], wall.positions[i][0], wall.positions[i][1], wall.normals[i][0], wall.normals[i][1],
-               wall.areas[i], sensitivity[i][0], sensitivity[i][1],
-               dot(sensitivity[i], wall.normals[i]) / wall.areas[i],
-               shape.bumps().bump(sample_bump(shape.bumps()), wall.s[i])});
+    table.add(std::vector<double>{wall.s[i], wall.positions[i][0], wall.positions[i][1], wall.normals[i][0],
+                                  wall.normals[i][1], wall.areas[i], sensitivity[i][0], sensitivity[i][1],
+                                  dot(sensitivity[i], wall.normals[i]) / wall.areas[i],
+                                  shape.bumps().bump(sample_bump(shape.bumps()), wall.s[i])});
   return table;
 }
 
@@ -89,7 +90,8 @@ nlohmann::ordered_json result_entry(const Context& context, const DesignVariable
   for (std::size_t i = 0; i < variables.size(); ++i) {
     nlohmann::ordered_json entry{{"name", variables.name(i)}, {"derivative", report.derivatives[i]}};
     if (!report.errors.empty()) entry["error"] = report.errors[i];
-    if (report.check && i < report.check->differences.size()) entry["difference"] = report.check->differences[i];
+    if (report.check && i < report.check->differences.size())
+      entry["difference"] = report.check->differences[i];
     design.push_back(std::move(entry));
   }
   nlohmann::ordered_json result{{"objective", context.settings.gradient.objective},
@@ -119,7 +121,8 @@ void report_gradient(Context& context, const DesignVariables& variables, const S
     if (context.settings.gradient.has("bumps")) bump_table(shape).write(context.output / "bumps.csv");
     if (!report.check) return;
     CsvTable steps({"step", "difference", "relative_error"});
-    for (const DifferenceStep& s : report.check->steps) steps.add(std::vector<double>{s.step, s.difference, s.relative_error});
+    for (const DifferenceStep& s : report.check->steps)
+      steps.add(std::vector<double>{s.step, s.difference, s.relative_error});
     steps.write(context.output / "step_study.csv");
   });
 }
@@ -128,8 +131,8 @@ void write_node_sensitivities(Context& context, const MultiblockMesh<2>& mesh, c
                               std::span<const Vec<double, 2>> sensitivities) {
   std::vector<double> packed;
   for (std::size_t i = 0; i < sensitivities.size(); ++i)
-    packed.insert(packed.end(), {static_cast<double>(shape.nodes().numbers[i]), sensitivities[i][0],
-                                 sensitivities[i][1]});
+    packed.insert(packed.end(),
+                  {static_cast<double>(shape.nodes().numbers[i]), sensitivities[i][0], sensitivities[i][1]});
   const std::vector<double> all = context.comm.gather(packed);
   on_root(context.comm, [&] {
     const auto positions = unique_positions(mesh, shape.numbers());

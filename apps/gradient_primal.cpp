@@ -1,5 +1,7 @@
 #include "apps/gradient_primal.hpp"
 
+#include <fmt/format.h>
+
 #include "adjoint/cycle_analysis.hpp"
 #include "adjoint/flow_analysis.hpp"
 #include "apps/cycle_branch.hpp"
@@ -14,7 +16,7 @@
 namespace wingbeat {
 namespace {
 
-// Newton of problems that start near their solutions, to round-off where the check asks for it.
+// Newton's method of problems that start near their solutions.
 NewtonOptions near_options(const SolverSettings& settings) {
   NewtonOptions options;
   options.max_iterations = settings.max_newton_iterations;
@@ -28,8 +30,8 @@ constexpr double check_flow_tolerance = 2e-12;
 constexpr double check_structure_tolerance = 1e-12;
 
 DomainBase<2> domain_base(const Context& context, const FlowLevel<2>& level, const ShapeVariables& shape) {
-  return {context.comm, level.local, shape.nodes(), level.steady.model(), level.domain.axis(),
-          has_structure(context.settings)};
+  return {context.comm,         level.local,         shape.nodes(),
+          level.steady.model(), level.domain.axis(), has_structure(context.settings)};
 }
 
 LoadQuantity load_quantity(const GradientSettings& gradient) {
@@ -55,8 +57,8 @@ FlowAnalysisOptions load_options(const Context& context, double tolerance) {
   return options;
 }
 
-// J - chi C_L with chi = (dJ/d angle)/(dC_L/d angle): stationary in the angle, so that its derivatives are those
-// of J where the angle holds the lift (eq:fixed-lift). Returns chi C_L.
+// J - chi C_L with chi = (dJ/d angle)/(dC_L/d angle): stationary in the angle, so that its derivatives are
+// those of J where the angle holds the lift (eq:fixed-lift). Returns chi C_L.
 double hold_lift(const Context& context, FlowAnalysis<2>& analysis, const ShapeVariables& shape) {
   const LoadQuantity quantity = load_quantity(context.settings.gradient), lift{LoadCoefficient::lift};
   Parameters<2> turn = no_change(shape.nodes());
@@ -67,11 +69,21 @@ double hold_lift(const Context& context, FlowAnalysis<2>& analysis, const ShapeV
     analysis.choose({{1.0, of}});
     const auto derivative = directional_derivative(analysis.functional(), analysis.point(), turn, gmres);
     if (derivative.solve.status != GmresStatus::converged)
-      throw SolveFailure(SolveStatus::stalled, "the derivative by the angle, which holds the lift, was not found");
+      throw SolveFailure(
+          SolveStatus::stalled,
+          fmt::format("the derivative by the angle of attack, which is to hold the lift, was solved to "
+                      "{:.1e}, not to gradient.tolerance = {:g}; raise solver.max_linear_iterations = {}",
+                      derivative.solve.relative_residual, gmres.relative_tolerance, gmres.max_iterations));
     return derivative.value;
   };
   const double by_angle = slope(quantity);
-  const double by_lift = by_angle / slope(lift);
+  const double lift_slope = slope(lift);
+  if (std::abs(lift_slope) < 1e-6)
+    throw SolveFailure(
+        SolveStatus::stalled,
+        fmt::format("the lift cannot be held by the angle of attack: it changes by {:.1e} a degree",
+                    lift_slope));
+  const double by_lift = by_angle / lift_slope;
   const double held = by_lift * analysis.functional().value();
   analysis.choose({{1.0, quantity}, {-by_lift, lift}});
   return held;
@@ -87,9 +99,9 @@ GradientPrimal steady_loads(Context& context, FlowLevels<2>& levels, const Shape
   if (primal.status != SolveStatus::converged) return primal;
   ForcedMotion rest;
   rest.mean_pitch = at_rest(context.settings).pitch;
-  auto analysis = std::make_unique<FlowAnalysis<2>>(
-      domain_base(context, level, shape), TimeSpectral(0), rest, 0.0, level.w, HarmonicFactors{level.solver, {}},
-      load_options(context, solver.steady_target()));
+  auto analysis = std::make_unique<FlowAnalysis<2>>(domain_base(context, level, shape), TimeSpectral(0), rest,
+                                                    0.0, level.w, HarmonicFactors{level.solver, {}},
+                                                    load_options(context, solver.steady_target()));
   analysis->solve(no_change(shape.nodes()));
   analysis->keep();
   if (context.settings.gradient.fixed_lift) primal.value_offset = hold_lift(context, *analysis, shape);
@@ -109,8 +121,9 @@ GradientPrimal forced_loads(Context& context, FlowLevels<2>& levels, const Shape
   if (!stage.flow.factors.mean)
     stage.flow.factors = unfactored(level.comm(), level.subdomain, state_size<2>, time.harmonics());
   auto analysis = std::make_unique<FlowAnalysis<2>>(
-      domain_base(context, level, shape), time, forced_motion(settings.pitch), *settings.pitch.reduced_frequency,
-      std::move(stage.flow.w), std::move(stage.flow.factors), load_options(context, settings.solver.flow_tolerance));
+      domain_base(context, level, shape), time, forced_motion(settings.pitch),
+      *settings.pitch.reduced_frequency, std::move(stage.flow.w), std::move(stage.flow.factors),
+      load_options(context, settings.solver.flow_tolerance));
   analysis->solve(no_change(shape.nodes()));
   analysis->keep();
   primal.objective.terms.push_back({1.0, std::move(analysis)});
@@ -194,8 +207,15 @@ class CyclePrimal {
     if (primal.status == SolveStatus::converged && step != BranchStep::reached) {
       primal.status = SolveStatus::stalled;
       context_.result.message =
-          fmt::format("the branch ends at E_0 = {:.3e}, V = {:.6f} before the cycle asked for", branch.energy(),
-                      branch.reduced_velocity());
+          by_speed
+              ? fmt::format(
+                    "no cycle was found at lco.reduced_velocity = {:g}: the branch was followed to E_0 = "
+                    "{:.3e}, V = {:.6f}; choose a speed that it reaches, or raise lco.max_energy = {:g}",
+                    *lco.reduced_velocity, branch.energy(), branch.reduced_velocity(), lco.max_energy)
+              : fmt::format(
+                    "the cycle of lco.energies = {:g} was not reached: the branch was followed to E_0 = "
+                    "{:.3e}, V = {:.6f}; a smaller energy, a finer mesh or other time.harmonics may do",
+                    energy, branch.energy(), branch.reduced_velocity());
       return primal;
     }
     if (finish(primal, branch.solution())) add_term(1.0, branch.solution(), branch.start(), primal);
@@ -213,7 +233,8 @@ class CyclePrimal {
                                                    GivenEnergy{energy * static_cast<double>(i + 1)});
       if (!finish(primal, solution)) return primal;
       add_term(weights[i] / energy, solution, *start, primal);
-      start = solver_.grown(solution.state, start->rest, energy * static_cast<double>(i + 2));
+      if (i + 1 < weights.size())
+        start = solver_.grown(solution.state, start->rest, energy * static_cast<double>(i + 2));
     }
     return primal;
   }
@@ -230,11 +251,13 @@ class CyclePrimal {
     else
       context_.result.findings["lco"].push_back(entry);
     print_cycle(context_, entry);
-    if (solution.status != SolveStatus::converged) context_.result.message = cycle_advice(settings_, solution);
+    if (solution.status != SolveStatus::converged)
+      context_.result.message = cycle_advice(settings_, solution);
     return solution.status == SolveStatus::converged;
   }
 
-  void add_term(double weight, const CycleSolution& solution, const CycleStart& start, GradientPrimal& primal) {
+  void add_term(double weight, const CycleSolution& solution, const CycleStart& start,
+                GradientPrimal& primal) {
     const auto part = context_.timer.measure("linearization");
     CycleAnalysisOptions options;
     options.quantity = cycle_quantity(settings_.gradient.objective);
@@ -252,7 +275,8 @@ class CyclePrimal {
     options.newton = near_options(solver);
     HarmonicFactors factors = start.factors;
     if (!factors.mean)
-      factors = unfactored(level_.comm(), level_.subdomain, state_size<2>, time_of(solution.state).harmonics());
+      factors =
+          unfactored(level_.comm(), level_.subdomain, state_size<2>, time_of(solution.state).harmonics());
     auto analysis = std::make_unique<CycleAnalysis<2>>(
         domain_base(context_, level_, shape_), typical_section(settings_.structure),
         section_kinematics(settings_).mean_pitch, solution.state, start.rest, std::move(factors), options);
@@ -287,7 +311,8 @@ GradientPrimal solve_gradient_primal(Context& context, FlowLevels<2>& levels, co
 
 std::string primal_name(const CaseSettings& settings) {
   const GradientSettings& gradient = settings.gradient;
-  if (gradient.is_of_loads()) return gradient.analysis == "pitch" ? "the flow in forced motion" : "the steady flow";
+  if (gradient.is_of_loads())
+    return gradient.analysis == "pitch" ? "the flow in forced motion" : "the steady flow";
   return gradient.objective.starts_with("flutter") ? "the flutter point" : "the limit cycle";
 }
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <functional>
-
 #include "adjoint/objective.hpp"
 #include "adjoint/shape_variables.hpp"
 #include "apps/context.hpp"

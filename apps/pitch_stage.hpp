@@ -14,8 +14,8 @@ struct ForcedFlowStage {
   ForcedFlowStart flow;
 };
 
-// Solves it on the finest level, from steady flow or the restart, writes solution files and loads, and reports
-// them. `needs_rest`: the steady flow is wanted in any case. Collective.
+// Solves it on the finest level, from steady flow or the restart, writes solution files and loads, and
+// reports them. `needs_rest`: the steady flow is wanted in any case. Collective.
 ForcedFlowStage run_pitch_stage(Context& context, FlowLevels<2>& levels, History& history, bool needs_rest);
 
 }  // namespace wingbeat

@@ -65,7 +65,8 @@ BlockGeometry<Dim>::BlockGeometry(const LocalBlock<Dim>& block, const Vec<double
       Index<Dim> high = low;
       ++high[d];
       volume[cell++] +=
-          (face_at<Dim>(block.nodes, high, d).volume_flux - face_at<Dim>(block.nodes, low, d).volume_flux) / Dim;
+          (face_at<Dim>(block.nodes, high, d).volume_flux - face_at<Dim>(block.nodes, low, d).volume_flux) /
+          Dim;
     });
   }
 }

@@ -59,8 +59,9 @@ void differentiate_dissipation(const SchemeType& scheme, const FaceStencil<Dim, 
 // on the pressures, 4 and 5 on the radii.
 template <int Dim>
 void differentiate_dissipation(const JstScheme& jst, const FaceStencil<Dim, Pack>& cells,
-                               const MovedFace<Dim, Pack>& /*face*/, const UniformFlow<Dim, Pack>& /*uniform*/,
-                               double /*gamma*/, FaceGradients<Dim>& gradients) {
+                               const MovedFace<Dim, Pack>& /*face*/,
+                               const UniformFlow<Dim, Pack>& /*uniform*/, double /*gamma*/,
+                               FaceGradients<Dim>& gradients) {
   constexpr int n = state_size<Dim>;
   using D = Dual<Pack, 6>;
   FaceStencil<Dim, Pack, D> seeded;
@@ -95,8 +96,7 @@ void add_central_gradients(const FaceStencil<Dim, Pack>& cells, const MovedFace<
   for (std::size_t k : {1, 2}) {
     State<Dim, C> w;
     for (int v = 0; v < n; ++v) w[v] = C::seed(cells.w[static_cast<int>(k)][v], v);
-    const auto flux =
-        euler_flux<Dim>(w, C::seed(cells.p[static_cast<int>(k)], n), face.normal, face.sweep);
+    const auto flux = euler_flux<Dim>(w, C::seed(cells.p[static_cast<int>(k)], n), face.normal, face.sweep);
     for (int row = 0; row < n; ++row) {
       for (int v = 0; v < n; ++v) add(0.5 * flux[row].gradient[v], gradients.state[k][row][v]);
       add(0.5 * flux[row].gradient[n], gradients.pressure[k][row]);
@@ -126,8 +126,7 @@ struct FaceScatter {
     for (std::size_t row = 0; row < n; ++row) {
       const double by_pressure = weight * gradients.pressure[k][row][lane];
       for (std::size_t v = 0; v < n; ++v)
-        block[row * n + v] =
-            weight * gradients.state[k][row][v][lane] + by_pressure * cells.pressure[v][at];
+        block[row * n + v] = weight * gradients.state[k][row][v][lane] + by_pressure * cells.pressure[v][at];
     }
     if (has_radii && k == source && (k == 1 || k == 2)) add_radius_terms(k - 1, at, block);
     add_to_row(1, source, +1.0, block);
@@ -138,8 +137,7 @@ struct FaceScatter {
   void add_radius_terms(std::size_t side, std::size_t at, std::array<double, n * n>& block) const {
     for (std::size_t row = 0; row < n; ++row) {
       const double by_radius = gradients.radius[side][row][lane];
-      for (std::size_t v = 0; v < n; ++v)
-        block[row * n + v] += by_radius * cells.radius[d][v][at];
+      for (std::size_t v = 0; v < n; ++v) block[row * n + v] += by_radius * cells.radius[d][v][at];
     }
   }
 
@@ -170,8 +168,7 @@ Box<Dim> faces_of_plane(const Index<Dim>& extents, int plane, int d) {
 template <int Dim, class SchemeType>
 [[gnu::flatten]] void assemble_interior(const FlowBlock<Dim>& block, const RigidMotion<Pack>& motion, int d,
                                         const Box<Dim>& faces, const Freestream<Dim, double>& stream,
-                                        const SchemeType& scheme,
-                                        const CellDerivatives<Dim>& cells,
+                                        const SchemeType& scheme, const CellDerivatives<Dim>& cells,
                                         BlockSparse<state_size<Dim>>& matrix) {
   const auto& layout = block.geometry.layout;
   const std::ptrdiff_t step = layout.strides[d];
@@ -190,8 +187,14 @@ template <int Dim, class SchemeType>
     for (std::ptrdiff_t face = o; face < std::min(o + lanes<Pack>, last); ++face) {
       const bool interior = exists(face - step) && exists(face);
       if (!interior || !(owns_row(face - step) || owns_row(face))) continue;
-      const FaceScatter<Dim> scatter{
-          cells, gradients, matrix, d, face, step, static_cast<std::size_t>(face - o), SchemeType::uses_radii};
+      const FaceScatter<Dim> scatter{cells,
+                                     gradients,
+                                     matrix,
+                                     d,
+                                     face,
+                                     step,
+                                     static_cast<std::size_t>(face - o),
+                                     SchemeType::uses_radii};
       scatter.add(1, 1, 1.0);
       scatter.add(2, 2, 1.0);
       // The outer cells, or the two inner ones they are extrapolated from.

@@ -71,9 +71,9 @@ void add_load_sensitivities(const FlowEquations<Dim>& flow, std::span<const doub
                                motion, push, loads);
     add_load_sensitivity<Dim>(geometry, wall.face, motion, push, weights, result.geometry[wall.block]);
   }
-  result.mach -= 2.0 / freestream.mach *
-                 (weights.force_x * loads.force_x + weights.force_y * loads.force_y +
-                  weights.moment * loads.moment);
+  result.mach -=
+      2.0 / freestream.mach *
+      (weights.force_x * loads.force_x + weights.force_y * loads.force_y + weights.moment * loads.moment);
 }
 
 MotionState load_motion_sensitivity(const Loads<D>& loads, const Loads<double>& weights) {

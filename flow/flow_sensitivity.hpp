@@ -14,7 +14,6 @@ namespace wingbeat {
 // others are summed over ranks. Collective.
 template <int Dim>
 FlowInputs<Dim> flow_sensitivity(const FlowEquations<Dim>& flow, const FlowPoint& at,
-                                 std::span<const double> multipliers,
-                                 std::span<const Loads<double>> weights);
+                                 std::span<const double> multipliers, std::span<const Loads<double>> weights);
 
 }  // namespace wingbeat

@@ -77,9 +77,10 @@ void set_boundary_fluxes(const FlowBlock<Dim>& block, const Geometry& geometry, 
   for (const BoundaryFace& boundary : block.boundary) {
     if (boundary.direction != d) continue;
     const auto face = outward_face<Dim, S>(geometry, motion, boundary);
-    const State<Dim, S> flux = boundary_flux<Dim, S>(
-        boundary.type, load_state<Dim, S>(state, boundary.first), state.p[static_cast<std::size_t>(boundary.first)],
-        state.p[static_cast<std::size_t>(boundary.second)], face, model.freestream);
+    const State<Dim, S> flux =
+        boundary_flux<Dim, S>(boundary.type, load_state<Dim, S>(state, boundary.first),
+                              state.p[static_cast<std::size_t>(boundary.first)],
+                              state.p[static_cast<std::size_t>(boundary.second)], face, model.freestream);
     for (int v = 0; v < state_size<Dim>; ++v)
       state.flux[d][v][static_cast<std::size_t>(boundary.face)] = boundary.outward * flux[v];
   }

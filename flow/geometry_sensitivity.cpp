@@ -103,14 +103,13 @@ template <int Dim>
     const auto mean = mean_resting_faces<Dim, Pack>(geometry, o);
     Vec<RestingFace<Dim, T>, Dim> seeded;
     for (int e = 0; e < Dim; ++e) {
-      for (int c = 0; c < Dim; ++c)
-        seeded[e].normal[c] = T::seed(mean[e].normal[c], e * face_values + c);
+      for (int c = 0; c < Dim; ++c) seeded[e].normal[c] = T::seed(mean[e].normal[c], e * face_values + c);
       seeded[e].moment = T::seed(mean[e].moment, e * face_values + Dim);
     }
     const auto faces = moved(seeded, moving);
-    const auto radii = scaled_radii(spectral_radii<Dim, T, T>(
-        lifted<T>(load_state<Dim, Pack>(with.state, o)), T(Load<Pack>::from(with.state.p.data() + o)),
-        faces.normals, faces.sweeps, gamma));
+    const auto radii = scaled_radii(spectral_radii<Dim, T, T>(lifted<T>(load_state<Dim, Pack>(with.state, o)),
+                                                              T(Load<Pack>::from(with.state.p.data() + o)),
+                                                              faces.normals, faces.sweeps, gamma));
     Vec<Pack, Dim> multipliers;
     for (int d = 0; d < Dim; ++d) multipliers[d] = 0.5 * Load<Pack>::from(with.radius[d].data() + o);
     const auto sums = contracted<Dim, seeds>(radii, multipliers);
@@ -140,7 +139,8 @@ RigidMotion<Dual<double, Dim + 1>> lifted(const RigidMotion<double>& m) {
 }
 
 template <int Dim>
-void add_to_face(const Vec<double, Dim + 1>& values, int d, std::ptrdiff_t o, BlockGeometry<Dim>& sensitivity) {
+void add_to_face(const Vec<double, Dim + 1>& values, int d, std::ptrdiff_t o,
+                 BlockGeometry<Dim>& sensitivity) {
   const auto at = static_cast<std::size_t>(o);
   for (int c = 0; c < Dim; ++c) sensitivity.normal[d][c][at] += values[c];
   sensitivity.moment[d][at] += values[Dim];
@@ -156,15 +156,14 @@ void contract_boundary(const FlowBlock<Dim>& block, const RigidMotion<double>& m
   for (const BoundaryFace& boundary : block.boundary) {
     const auto face =
         moved(seeded_face<Dim>(block.geometry, boundary.direction, boundary.face), lifted<Dim>(motion));
-    const State<Dim, D> flux = boundary_flux<Dim, D>(
-        boundary.type, lifted<D>(load_state<Dim, double>(state, boundary.first)),
-        D(state.p[static_cast<std::size_t>(boundary.first)]),
-        D(state.p[static_cast<std::size_t>(boundary.second)]),
-        {boundary.outward * face.normal, boundary.outward * face.sweep}, freestream);
+    const State<Dim, D> flux =
+        boundary_flux<Dim, D>(boundary.type, lifted<D>(load_state<Dim, double>(state, boundary.first)),
+                              D(state.p[static_cast<std::size_t>(boundary.first)]),
+                              D(state.p[static_cast<std::size_t>(boundary.second)]),
+                              {boundary.outward * face.normal, boundary.outward * face.sweep}, freestream);
     const auto row = static_cast<std::size_t>(block.number[static_cast<std::size_t>(boundary.first)]) * n;
     Vec<double, Dim + 1> sums;
-    for (int v = 0; v < n; ++v)
-      sums += multipliers[row + static_cast<std::size_t>(v)] * flux[v].gradient;
+    for (int v = 0; v < n; ++v) sums += multipliers[row + static_cast<std::size_t>(v)] * flux[v].gradient;
     add_to_face<Dim>(sums, boundary.direction, boundary.face, sensitivity);
   }
 }
@@ -172,10 +171,10 @@ void contract_boundary(const FlowBlock<Dim>& block, const RigidMotion<double>& m
 }  // namespace
 
 template <int Dim>
-void add_balance_sensitivity(const FlowBlock<Dim>& block, int owned_count, const FlowModel<Dim, double>& model,
-                             std::span<const double> w, std::span<const double> ghosts,
-                             const RigidMotion<double>& motion, std::span<const double> multipliers,
-                             BlockGeometry<Dim>& sensitivity) {
+void add_balance_sensitivity(const FlowBlock<Dim>& block, int owned_count,
+                             const FlowModel<Dim, double>& model, std::span<const double> w,
+                             std::span<const double> ghosts, const RigidMotion<double>& motion,
+                             std::span<const double> multipliers, BlockGeometry<Dim>& sensitivity) {
   const auto& freestream = model.freestream;
   Contraction<Dim> with{BlockState<Dim, double>(block.geometry.layout, freestream.state()), {}};
   for (auto& values : with.radius) values.assign(block.geometry.layout.size, 0.0);
@@ -216,9 +215,11 @@ template void add_balance_sensitivity<3>(const FlowBlock<3>&, int, const FlowMod
                                          std::span<const double>, std::span<const double>,
                                          const RigidMotion<double>&, std::span<const double>,
                                          BlockGeometry<3>&);
-template void add_load_sensitivity<2>(const BlockGeometry<2>&, const BoundaryFace&, const RigidMotion<double>&,
-                                      double, const Loads<double>&, BlockGeometry<2>&);
-template void add_load_sensitivity<3>(const BlockGeometry<3>&, const BoundaryFace&, const RigidMotion<double>&,
-                                      double, const Loads<double>&, BlockGeometry<3>&);
+template void add_load_sensitivity<2>(const BlockGeometry<2>&, const BoundaryFace&,
+                                      const RigidMotion<double>&, double, const Loads<double>&,
+                                      BlockGeometry<2>&);
+template void add_load_sensitivity<3>(const BlockGeometry<3>&, const BoundaryFace&,
+                                      const RigidMotion<double>&, double, const Loads<double>&,
+                                      BlockGeometry<3>&);
 
 }  // namespace wingbeat

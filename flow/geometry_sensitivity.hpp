@@ -11,10 +11,10 @@ namespace wingbeat {
 // at a given state (eq:geometry-sensitivity). Arguments as in FluxBalance::evaluate; multipliers: [owned
 // cell][variable] of the rank.
 template <int Dim>
-void add_balance_sensitivity(const FlowBlock<Dim>& block, int owned_count, const FlowModel<Dim, double>& model,
-                             std::span<const double> w, std::span<const double> ghosts,
-                             const RigidMotion<double>& motion, std::span<const double> multipliers,
-                             BlockGeometry<Dim>& sensitivity);
+void add_balance_sensitivity(const FlowBlock<Dim>& block, int owned_count,
+                             const FlowModel<Dim, double>& model, std::span<const double> w,
+                             std::span<const double> ghosts, const RigidMotion<double>& motion,
+                             std::span<const double> multipliers, BlockGeometry<Dim>& sensitivity);
 
 // The same of weights . loads, for one wall face; push as in add_wall_load.
 template <int Dim>

@@ -47,8 +47,8 @@ Loads<S> WallLoads<Dim>::evaluate(std::span<const double> w, std::span<const dou
   for (const WallFace& wall : faces_) {
     const auto& geometry = domain_.blocks()[wall.block].geometry;
     const double push = wall.face.outward * scale * (wall_pressure_at(wall, w, ghosts) - 1.0);
-    add_wall_load<Dim, S>(resting_face<Dim, S>(geometry, wall.face.direction, wall.face.face), motion, S(push),
-                          loads);
+    add_wall_load<Dim, S>(resting_face<Dim, S>(geometry, wall.face.direction, wall.face.face), motion,
+                          S(push), loads);
   }
   const Comm& comm = domain_.comm();
   if constexpr (std::is_same_v<S, double>) {

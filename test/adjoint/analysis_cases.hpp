@@ -13,7 +13,8 @@ namespace wingbeat::testing {
 // The shape variables of a small case, on its ranks.
 inline ShapeVariables shape_of(const FlowCase<2>& c) { return {c.mesh, c.local, DesignSettings{}}; }
 
-// The paper's section in small motion at its flutter point or in a limit cycle, as an analysis over all parameters.
+// The paper's section in small motion at its flutter point or in a limit cycle, as an analysis over all
+// parameters.
 struct CycleCase {
   CoupledCase c;
   FlutterSolution flutter;
@@ -33,8 +34,8 @@ struct CycleCase {
   }
 
   CycleAnalysis<2> analysis(const CycleAnalysisOptions& options) const {
-    return {base,  paper_section, 0.0, flutter.state, {steady, std::vector<double>(4, 0.0), 0.0, 1.0}, c.factors,
-            options};
+    return {base,      paper_section, 0.0, flutter.state, {steady, std::vector<double>(4, 0.0), 0.0, 1.0},
+            c.factors, options};
   }
 };
 
@@ -61,7 +62,8 @@ struct LoadCase {
 // A direction in all parameters at once, the same on any ranks: bumps and single numbers.
 inline Parameters<2> direction(const ShapeVariables& shape, double shape_size, double scalar_size) {
   std::vector<double> amplitudes;
-  for (int i = 0; i < shape.bumps().variables(); ++i) amplitudes.push_back(shape_size * std::sin(1.0 + 2.3 * i));
+  for (int i = 0; i < shape.bumps().variables(); ++i)
+    amplitudes.push_back(shape_size * std::sin(1.0 + 2.3 * i));
   Parameters<2> change;
   change.nodes = shape.node_change(amplitudes);
   change[Scalar::mach] = 0.1 * scalar_size;
@@ -82,8 +84,8 @@ inline double parameter_dot(const Comm& comm, const Parameters<2>& sensitivity, 
   return comm.sum(nodes) + scalars;
 }
 
-// As far as round-off allows: derivatives with respect to what moves the mean flow are sums of terms a thousand
-// times greater where the motion is small.
+// As far as round-off allows: derivatives with respect to what moves the mean flow are sums of terms a
+// thousand times greater where the motion is small.
 inline GmresOptions tight() { return {.relative_tolerance = 1e-14, .restart = 200, .max_iterations = 1000}; }
 
 inline Parameters<2> adjoint_gradient(const Analysis<2>& analysis) {

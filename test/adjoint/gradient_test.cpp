@@ -10,14 +10,17 @@ namespace {
 MultiblockMesh<2> small_mesh(int blocks = 1) { return section_mesh("naca64a010", 64, 16, blocks); }
 
 // Adjoint and tangent solve the same equations to 1e-12; what is lost is the conditioning of the sums.
-void expect_adjoint_is_tangent(const Analysis<2>& analysis, const ShapeVariables& shape, const std::string& name) {
+void expect_adjoint_is_tangent(const Analysis<2>& analysis, const ShapeVariables& shape,
+                               const std::string& name) {
   const Functional<2>& functional = analysis.functional();
   const Parameters<2> gradient = adjoint_gradient(analysis);
   for (const auto& [shape_size, scalar_size] : {std::pair{1.0, 0.0}, {0.0, 1.0}, {1.0, 1.0}}) {
     const Parameters<2> change = direction(shape, shape_size, scalar_size);
-    const DirectionalDerivative tangent = directional_derivative(functional, analysis.point(), change, tight());
+    const DirectionalDerivative tangent =
+        directional_derivative(functional, analysis.point(), change, tight());
     EXPECT_LT(tangent.solve.relative_residual, 1e-12);
-    EXPECT_NEAR(parameter_dot(functional.comm(), gradient, change), tangent.value, 1e-9 * std::abs(tangent.value))
+    EXPECT_NEAR(parameter_dot(functional.comm(), gradient, change), tangent.value,
+                1e-9 * std::abs(tangent.value))
         << name << ", directions " << shape_size << ", " << scalar_size;
   }
 }
@@ -107,6 +110,12 @@ TEST(Gradient, AdjointIsTangentForHarmonicsOfForcedMotion) {
   }
 }
 
+std::vector<double> by_variables(const GradientSettings& settings, const ShapeVariables& shape,
+                                 const Comm& ranks, const Parameters<2>& gradient) {
+  return DesignVariables(settings, shape, 0.01)
+      .derivatives(shape.wall_sensitivity(ranks, gradient.nodes), gradient);
+}
+
 // Bumps and single numbers: derivatives of a small flutter point and of steady drag, on some ranks.
 std::vector<double> all_derivatives(const Comm& ranks, int blocks) {
   GradientSettings settings;
@@ -116,12 +125,12 @@ std::vector<double> all_derivatives(const Comm& ranks, int blocks) {
     const CycleCase c(section_mesh("naca64a010", 48, 12, blocks), 1, 1e-4, ranks);
     CycleAnalysis<2> speed = c.analysis({.energy = 1e-4});
     speed.solve(no_change<2>(c.shape.nodes()));
-    all = DesignVariables(settings, c.shape, 0.01).derivatives(ranks, adjoint_gradient(speed));
+    all = by_variables(settings, c.shape, ranks, adjoint_gradient(speed));
   }
   const LoadCase c(section_mesh("naca64a010", 48, 12, blocks), 0.8, 0, ranks);
   FlowAnalysis<2> drag = c.analysis({LoadCoefficient::drag}, resting_at(0.01));
   drag.solve(no_change<2>(c.shape.nodes()));
-  const auto more = DesignVariables(settings, c.shape, 0.01).derivatives(ranks, adjoint_gradient(drag));
+  const auto more = by_variables(settings, c.shape, ranks, adjoint_gradient(drag));
   all.insert(all.end(), more.begin(), more.end());
   return all;
 }
@@ -143,21 +152,21 @@ TEST(Gradient, OfDragIsSymmetricForASymmetricSection) {
   FlowAnalysis<2> drag = c.analysis({LoadCoefficient::drag});
   drag.solve(no_change<2>(c.shape.nodes()));
   GradientSettings settings;
-  const auto g = DesignVariables(settings, c.shape, 0.01).derivatives(Comm(), adjoint_gradient(drag));
+  const auto g = by_variables(settings, c.shape, Comm(), adjoint_gradient(drag));
   double size = 0.0;
   for (double value : g) size = std::max(size, std::abs(value));
   for (std::size_t i = 0; i < 12; ++i) EXPECT_NEAR(g[i], g[23 - i], 1e-8 * size) << "bump " << i + 1;
 }
 
-// An odd number of instances does not hold theta + pi: mirrored bumps differ by aliasing, which falls with the
-// energy and with the harmonics.
+// An odd number of instances does not hold theta + pi: mirrored bumps differ by aliasing, which falls with
+// the energy and with the harmonics.
 TEST(Gradient, OfFlutterIsSymmetricButForAliasing) {
   if (Comm().size() > 1) GTEST_SKIP() << "ranks are compared elsewhere";
   const auto asymmetry = [](int harmonics, double energy) {
     const CycleCase c(small_mesh(), harmonics, energy);
     CycleAnalysis<2> speed = c.analysis({.energy = energy});
     speed.solve(no_change<2>(c.shape.nodes()));
-    const auto g = DesignVariables(GradientSettings{}, c.shape, 0.01).derivatives(Comm(), adjoint_gradient(speed));
+    const auto g = by_variables(GradientSettings{}, c.shape, Comm(), adjoint_gradient(speed));
     double size = 0.0, defect = 0.0;
     for (std::size_t i = 0; i < 12; ++i) {
       size = std::max(size, std::abs(g[i]));
@@ -166,7 +175,8 @@ TEST(Gradient, OfFlutterIsSymmetricButForAliasing) {
     return defect / size;
   };
   const double at_1e4 = asymmetry(1, 1e-4), at_1e6 = asymmetry(1, 1e-6), of_three = asymmetry(3, 1e-4);
-  printf("  asymmetry: N_H = 1: %.1e at E_0 = 1e-4, %.1e at 1e-6; N_H = 3: %.1e at 1e-4\n", at_1e4, at_1e6, of_three);
+  printf("  asymmetry: N_H = 1: %.1e at E_0 = 1e-4, %.1e at 1e-6; N_H = 3: %.1e at 1e-4\n", at_1e4, at_1e6,
+         of_three);
   EXPECT_LT(at_1e6, 0.2 * at_1e4);
   EXPECT_LT(of_three, 0.2 * at_1e4);
 }

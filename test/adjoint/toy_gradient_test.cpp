@@ -11,8 +11,8 @@ namespace {
 
 using namespace quasi_steady;
 
-// dV/d(mass ratio, k3) at a pitch amplitude of 5 degrees, k3 = -1.5, k5 = 50: to ten digits from an independent
-// program (He, Jonsson & Martins, Nonlinear Dynamics 2022, its example).
+// dV/d(mass ratio, k3) at a pitch amplitude of 5 degrees, k3 = -1.5, k5 = 50: to ten digits from an
+// independent program (He, Jonsson & Martins, Nonlinear Dynamics 2022, its example).
 TEST(ToyGradient, MatchesTheReference) {
   for (const auto& [harmonics, expected] : {std::pair{2, Eigen::Vector2d(0.0414618981, 0.0023792272)},
                                             {5, Eigen::Vector2d(0.0414618254, 0.0023811824)}}) {
@@ -74,8 +74,8 @@ TEST(SectionDerivatives, AgreeWithDifferencesWithDampingAndFreeplay) {
   for (std::size_t k = 0; k < section_scalar_count; ++k) {
     TypicalSection above = base, below = base;
     const auto value_of = [k](TypicalSection& section) -> double& {
-      return *std::array{&section.static_unbalance, &section.gyration_radius_squared, &section.frequency_ratio,
-                         &section.mass_ratio}[k];
+      return *std::array{&section.static_unbalance, &section.gyration_radius_squared,
+                         &section.frequency_ratio, &section.mass_ratio}[k];
     };
     value_of(above) += h;
     value_of(below) -= h;
@@ -86,10 +86,11 @@ TEST(SectionDerivatives, AgreeWithDifferencesWithDampingAndFreeplay) {
     for (std::size_t i = 0; i < y.size(); ++i)
       EXPECT_NEAR(tangent[i], (plus[i] - minus[i]) / (2.0 * h), 1e-8)
           << scalar_names[first_section_scalar + k] << ", row " << i;
-    EXPECT_NEAR(fluctuating_energy_change(change, y),
-                (fluctuating_energy(structure_model(above), y) - fluctuating_energy(structure_model(below), y)) /
-                    (2.0 * h),
-                1e-10);
+    EXPECT_NEAR(
+        fluctuating_energy_change(change, y),
+        (fluctuating_energy(structure_model(above), y) - fluctuating_energy(structure_model(below), y)) /
+            (2.0 * h),
+        1e-10);
   }
 }
 

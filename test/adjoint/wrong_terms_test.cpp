@@ -50,8 +50,9 @@ double derivative_without(const CycleCase& c, const CycleAnalysis<2>& analysis, 
   const Functional<2>& functional = analysis.functional();
   const Problem& problem = functional.problem();
   const WithoutFlowByR reduced(problem.jacobian(), c.c.flow.state_count(), functional.comm());
-  const LinearOperator<double>& jacobian =
-      missing == Missing::flow_by_r ? static_cast<const LinearOperator<double>&>(reduced) : problem.jacobian();
+  const LinearOperator<double>& jacobian = missing == Missing::flow_by_r
+                                               ? static_cast<const LinearOperator<double>&>(reduced)
+                                               : problem.jacobian();
   std::vector<double> rhs = functional.by_state(), lambda(rhs.size(), 0.0);
   for (double& value : rhs) value = -value;
   gmres<double>(functional.comm(), TransposedOperator<double>(jacobian),
@@ -62,7 +63,8 @@ double derivative_without(const CycleCase& c, const CycleAnalysis<2>& analysis, 
     const auto& flow = analysis.point().flow;
     const auto& problem_of_cycle = dynamic_cast<const AeroelasticProblem<2>&>(problem);
     const std::vector<Loads<double>> none(flow.instance_count());
-    inputs.flow = flow_sensitivity<2>(flow, functional.point(), problem_of_cycle.multipliers(lambda).flow, none);
+    inputs.flow =
+        flow_sensitivity<2>(flow, functional.point(), problem_of_cycle.multipliers(lambda).flow, none);
   }
   if (missing == Missing::grid_velocity)
     for (auto& block : inputs.flow.geometry)

@@ -1,4 +1,5 @@
-// Tangents and sensitivities of the flow equations with respect to geometry, free stream, motion and frequency.
+// Tangents and sensitivities of the flow equations with respect to geometry, free stream, motion and
+// frequency.
 #include <gtest/gtest.h>
 
 #include "flow/flow_sensitivity.hpp"
@@ -52,7 +53,8 @@ struct MovingCase {
     Moved moved;
     moved.local = c.local;
     moved.local.blocks = moved_blocks(step);
-    moved.domain = std::make_unique<FlowDomain<Dim>>(c.comm, moved.local, Vec<double, 2>{{{0.2 + 0.1 * step, 0.0}}});
+    moved.domain =
+        std::make_unique<FlowDomain<Dim>>(c.comm, moved.local, Vec<double, 2>{{{0.2 + 0.1 * step, 0.0}}});
     FlowModel<Dim, double> model = flow.model();
     const double angle = 3.0 * std::numbers::pi / 180 + 0.3 * step;
     model.freestream = {1.4, 0.7 + 0.5 * step, std::cos(angle), std::sin(angle)};
@@ -69,14 +71,16 @@ struct MovingCase {
       return (8.0 * (a - b) - (c2 - d2)) / (12.0 * h);
     };
     for (std::size_t b = 0; b < result.geometry.size(); ++b) {
-      const auto of = [b](const Moved& m) -> const BlockGeometry<Dim>& { return m.domain->blocks()[b].geometry; };
+      const auto of = [b](const Moved& m) -> const BlockGeometry<Dim>& {
+        return m.domain->blocks()[b].geometry;
+      };
       for (std::size_t i = 0; i < result.geometry[b].moment[0].size(); ++i)
         for (std::size_t d = 0; d < Dim; ++d) {
           for (std::size_t k = 0; k < Dim; ++k)
             result.geometry[b].normal[d][k][i] = slope(of(p1).normal[d][k][i], of(m1).normal[d][k][i],
                                                        of(p2).normal[d][k][i], of(m2).normal[d][k][i]);
-          result.geometry[b].moment[d][i] = slope(of(p1).moment[d][i], of(m1).moment[d][i], of(p2).moment[d][i],
-                                                  of(m2).moment[d][i]);
+          result.geometry[b].moment[d][i] =
+              slope(of(p1).moment[d][i], of(m1).moment[d][i], of(p2).moment[d][i], of(m2).moment[d][i]);
         }
       for (std::size_t i = 0; i < result.geometry[b].volume.size(); ++i)
         result.geometry[b].volume[i] =

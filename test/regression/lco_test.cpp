@@ -125,7 +125,8 @@ TEST_F(Lco, SpeedTheBranchDoesNotReachEndsWithTheReason) {
 
 // Below its onset a supercritical branch has no cycle; rest solves all rows there.
 TEST_F(Lco, RestIsNoCycleOfAGivenSpeed) {
-  const ProgramRun done = run({"lco", case_, "mesh.cells=[64,16]", "lco.reduced_velocity=2.74", "--output", "rest"});
+  const ProgramRun done =
+      run({"lco", case_, "mesh.cells=[64,16]", "lco.reduced_velocity=2.74", "--output", "rest"});
   EXPECT_EQ(done.exit_code, 1);
   EXPECT_EQ(result("rest")["status"], "stalled");
 }
