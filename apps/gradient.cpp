@@ -99,6 +99,13 @@ std::vector<std::string> gradient_faults(const CaseSettings& settings) {
   if (gradient.fixed_lift)
     faults.push_back("gradient.fixed_lift: holds the lift of steady drag or moment, not of " +
                      gradient.objective);
+  const StructureSettings& structure = settings.structure;
+  const bool is_damped = structure.damping[0] != 0.0 || structure.damping[1] != 0.0;
+  if (is_damped && structure.frequency_ratio == 1.0 && structure.static_unbalance == 0.0)
+    faults.push_back(
+        "structure.damping: the two vacuum frequencies are equal (frequency_ratio = 1, static_unbalance = "
+        "0), and "
+        "modal damping has no derivative there; change one of the three keys a little");
   const bool is_cycle = gradient.objective.starts_with("lco");
   if (is_cycle && gradient.is_of_given_speed() && !settings.lco.reduced_velocity)
     faults.push_back("lco.reduced_velocity: missing; gradient.objective = \"" + gradient.objective +
