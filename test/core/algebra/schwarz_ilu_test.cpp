@@ -2,31 +2,11 @@
 #include <gtest/gtest.h>
 
 #include "core/algebra/gmres.hpp"
-#include "core/algebra/schwarz.hpp"
 #include "core/io/error.hpp"
-#include "test/core/algebra/model_grid.hpp"
+#include "test/core/algebra/schwarz_case.hpp"
 
 namespace wingbeat::test {
 namespace {
-
-using Complex = std::complex<double>;
-constexpr int B = 4;
-
-template <class T>
-struct Preconditioned {
-  Comm comm;
-  ModelGrid<B> grid;
-  BlockSparse<B> matrix = grid.matrix();
-  std::vector<T> shift = grid.template shift<T>();
-  ShiftedOperator<T, B> op{grid, matrix, shift};
-  SchwarzSolver<T> schwarz;
-
-  Preconditioned(int ni, int nj, const SubdomainOptions& options)
-      : grid(comm, ni, nj),
-        schwarz(comm, std::make_shared<Subdomain>(comm, grid.halo, grid.pattern, options), B) {
-    schwarz.factor(matrix, std::span<const T>(shift));
-  }
-};
 
 SubdomainOptions ilu(int fill, int overlap = 1) {
   return {.overlap = overlap, .method = SubdomainMethod::ilu, .fill = fill};

@@ -6,32 +6,10 @@
 
 #include "core/algebra/gmres.hpp"
 #include "core/io/error.hpp"
-#include "test/core/algebra/model_grid.hpp"
+#include "test/core/algebra/schwarz_case.hpp"
 
 namespace wingbeat::test {
 namespace {
-
-using Complex = std::complex<double>;
-constexpr int B = 4;
-
-template <class T>
-struct Preconditioned {
-  Comm comm;
-  ModelGrid<B> grid;
-  BlockSparse<B> matrix = grid.matrix();
-  std::vector<T> shift = grid.template shift<T>();
-  ShiftedOperator<T, B> op{grid, matrix, shift};
-  SchwarzSolver<T> schwarz;
-
-  Preconditioned(int ni, int nj, int overlap)
-      : grid(comm, ni, nj),
-        schwarz(
-            comm,
-            std::make_shared<Subdomain>(comm, grid.halo, grid.pattern, SubdomainOptions{.overlap = overlap}),
-            B) {
-    schwarz.factor(matrix, std::span<const T>(shift));
-  }
-};
 
 // Cells of a rank and `layers` steps of the stencil around them, owned first.
 std::vector<long> subdomain_cells(const ModelGrid<B>& grid, int layers) {
@@ -75,7 +53,7 @@ std::vector<T> dense_schwarz(const ModelGrid<B>& grid, int layers, double seed) 
 
 template <class T>
 void expect_definition(int overlap) {
-  const Preconditioned<T> s(16, 6, overlap);
+  const Preconditioned<T> s(16, 6, {.overlap = overlap});
   const auto b = s.grid.template field<T>(0.6);
   std::vector<T> y(b.size());
   s.schwarz.apply(b, y);
@@ -101,7 +79,7 @@ TEST(Schwarz, OverlapGrowsByLayersOfTheMatrixGraph) {
 }
 
 TEST(Schwarz, IsTheExactInverseOnOneRank) {
-  const Preconditioned<Complex> s(16, 6, 2);
+  const Preconditioned<Complex> s(16, 6, {.overlap = 2});
   if (s.comm.size() > 1) GTEST_SKIP() << "exact on one rank only";
   const auto b = s.grid.field<Complex>(0.6);
   std::vector<Complex> x(b.size()), ax(b.size());
@@ -115,7 +93,7 @@ TEST(Schwarz, IsTheExactInverseOnOneRank) {
 
 template <class T>
 void expect_dot_test(int overlap) {
-  const Preconditioned<T> s(16, 6, overlap);
+  const Preconditioned<T> s(16, 6, {.overlap = overlap});
   const auto x = s.grid.template field<T>(0.3);
   const auto v = s.grid.template field<T>(0.9);
   std::vector<T> mx(x.size()), mtv(x.size());
@@ -134,7 +112,7 @@ TEST(Schwarz, TransposePassesTheDotTest) {
 
 template <class T>
 void expect_gmres_converges(bool transpose) {
-  const Preconditioned<T> s(32, 12, 1);
+  const Preconditioned<T> s(32, 12, {.overlap = 1});
   const TransposedOperator<T> op_transposed(s.op), schwarz_transposed(s.schwarz);
   const LinearOperator<T>& op = transpose ? static_cast<const LinearOperator<T>&>(op_transposed) : s.op;
   const LinearOperator<T>& m =
@@ -156,7 +134,7 @@ TEST(Schwarz, MakesGmresConvergeInFewIterations) {
 }
 
 TEST(Schwarz, FactorsNewValuesOnTheSameAnalysis) {
-  Preconditioned<double> s(16, 6, 1);
+  Preconditioned<double> s(16, 6, {.overlap = 1});
   const auto b = s.grid.field<double>(0.6);
   std::vector<double> before(b.size()), after(b.size());
   s.schwarz.apply(b, before);
@@ -169,7 +147,7 @@ TEST(Schwarz, FactorsNewValuesOnTheSameAnalysis) {
 }
 
 TEST(Schwarz, ASingularMatrixOnOneRankIsRefusedOnAll) {
-  Preconditioned<double> s(16, 6, 1);
+  Preconditioned<double> s(16, 6, {.overlap = 1});
   if (s.comm.is_root()) {
     for (int k = s.grid.pattern->row_begin[0]; k < s.grid.pattern->row_begin[1]; ++k)
       std::fill_n(s.matrix.block(k).begin(), B, 0.0);  // the first row of cell 0
