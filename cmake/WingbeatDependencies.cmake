@@ -21,3 +21,6 @@ endfunction()
 wingbeat_find_library(suitesparse::umfpack HEADER umfpack.h LIBRARIES umfpack cholmod amd suitesparseconfig openblas PATHS suitesparse)
 wingbeat_find_library(metis::metis HEADER metis.h LIBRARIES metis)
 wingbeat_find_library(cgns::cgns HEADER cgnslib.h LIBRARIES cgns)
+# Debian's Ipopt solves with a sequential MUMPS whose libraries define MPI calls that do nothing. They must stay
+# out of the link line, where pkg-config would put them: every MPI call then finds the MPI that is linked.
+wingbeat_find_library(ipopt::ipopt HEADER IpIpoptApplication.hpp LIBRARIES ipopt PATHS coin)

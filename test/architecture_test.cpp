@@ -93,6 +93,13 @@ bool may_see_mpi(const std::string& path) {
          path == "test/main.cpp" || path.rfind("test/core/parallel/", 0) == 0;
 }
 
+// Ipopt's headers are named Ip..., in capitals as none of ours are.
+bool is_ipopt_header(const std::string& include) {
+  const std::string name =
+      fs::path(include.substr(std::min<std::size_t>(1, include.size()))).filename().string();
+  return name.starts_with("Ip");
+}
+
 // Labels "eq:name" that follow `before` in a line.
 std::vector<std::string> labels(const std::string& line, const std::string& before = "") {
   std::vector<std::string> found;
@@ -114,6 +121,9 @@ TEST(Architecture, TheRulesThemselvesTellRightFromWrong) {
   EXPECT_FALSE(may_include("flow/gas.hpp", "gas.hpp")) << "includes start at the project root";
   EXPECT_EQ(included("#include \"flow/gas.hpp\""), "\"flow/gas.hpp");
   EXPECT_EQ(included("#include <mpi.h>"), "<mpi.h");
+  EXPECT_TRUE(is_ipopt_header("<IpTNLP.hpp"));
+  EXPECT_TRUE(is_ipopt_header("<coin/IpTNLP.hpp"));
+  EXPECT_FALSE(is_ipopt_header("\"optimize/ipopt_adapter.hpp"));
   EXPECT_EQ(labels("(eq:jst-sensor), eq:jst.").size(), 2U);
   EXPECT_EQ(labels("<a id=\"eq:gas\"></a> (`eq:gas`)", "id=\""), std::vector<std::string>{"eq:gas"});
   EXPECT_GE(sources().size(), 100U);
@@ -137,6 +147,13 @@ TEST(Architecture, OnlyParallelAndPartitionSeeMpi) {
           included(line) == "<mpi.h" || (!is_test(source.path) && std::regex_search(line, mpi_name));
       EXPECT_TRUE(!uses_mpi || may_see_mpi(source.path)) << source.path << ": " << line;
     }
+}
+
+TEST(Architecture, OnlyTheAdapterSeesIpopt) {
+  for (const Source& source : sources())
+    for (const std::string& line : source.lines)
+      EXPECT_TRUE(!is_ipopt_header(included(line)) || source.path == "optimize/ipopt_adapter.cpp")
+          << source.path << ": " << line;
 }
 
 TEST(Architecture, FilesStayShort) {
