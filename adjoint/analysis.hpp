@@ -1,6 +1,8 @@
 #pragma once
 
+#include <span>
 #include <string>
+#include <vector>
 
 #include "adjoint/adjoint.hpp"
 
@@ -15,7 +17,10 @@ class Analysis {
   // linearizes there. Throws SolveFailure where it does not converge. Collective.
   virtual void solve(const Parameters<Dim>& change) = 0;
   // Keeps the last solution as the start of the next.
-  virtual void keep() = 0;
+  void keep() { start_from(solution()); }
+  // The last solution, this rank's part, and one of these as the start of the next.
+  virtual std::vector<double> solution() const = 0;
+  virtual void start_from(std::span<const double> solution) = 0;
   // At the last solution.
   virtual const Functional<Dim>& functional() const = 0;
   virtual ParameterPoint<Dim> point() const = 0;

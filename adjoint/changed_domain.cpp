@@ -20,7 +20,16 @@ LocalMesh<Dim> moved(LocalMesh<Dim> mesh, const LocalNodes<Dim>& nodes,
 }
 
 template <int Dim>
-FlowModel<Dim, double> moved(FlowModel<Dim, double> model, const Parameters<Dim>& change) {
+Vec<double, 2> moved_axis(const DomainBase<Dim>& base, const Parameters<Dim>& change) {
+  Vec<double, 2> axis = base.axis;
+  if (base.turns_about_elastic_axis) axis[0] += 0.5 * change[Scalar::elastic_axis];
+  return axis;
+}
+
+}  // namespace
+
+template <int Dim>
+FlowModel<Dim, double> changed_model(FlowModel<Dim, double> model, const Parameters<Dim>& change) {
   auto& f = model.freestream;
   f.mach += change[Scalar::mach];
   const double turn = change[Scalar::angle_of_attack] * std::numbers::pi / 180.0;
@@ -31,19 +40,10 @@ FlowModel<Dim, double> moved(FlowModel<Dim, double> model, const Parameters<Dim>
 }
 
 template <int Dim>
-Vec<double, 2> moved_axis(const DomainBase<Dim>& base, const Parameters<Dim>& change) {
-  Vec<double, 2> axis = base.axis;
-  if (base.turns_about_elastic_axis) axis[0] += 0.5 * change[Scalar::elastic_axis];
-  return axis;
-}
-
-}  // namespace
-
-template <int Dim>
 ChangedDomain<Dim>::ChangedDomain(const DomainBase<Dim>& base, const Parameters<Dim>& change,
                                   const TimeSpectral& time)
     : mesh(moved<Dim>(base.mesh, base.nodes, change.nodes)),
-      model(moved(base.model, change)),
+      model(changed_model(base.model, change)),
       domain(base.comm, mesh, moved_axis(base, change)),
       flow(domain, model, time) {
   const auto volumes = domain.volumes();
@@ -53,6 +53,8 @@ ChangedDomain<Dim>::ChangedDomain(const DomainBase<Dim>& base, const Parameters<
                        "design.deformation to the other of grid_lines and inverse_distance");
 }
 
+template FlowModel<2, double> changed_model<2>(FlowModel<2, double>, const Parameters<2>&);
+template FlowModel<3, double> changed_model<3>(FlowModel<3, double>, const Parameters<3>&);
 template struct ChangedDomain<2>;
 template struct ChangedDomain<3>;
 

@@ -18,6 +18,10 @@ struct DomainBase {
   bool turns_about_elastic_axis = false;
 };
 
+// A model with its free stream changed.
+template <int Dim>
+FlowModel<Dim, double> changed_model(FlowModel<Dim, double> model, const Parameters<Dim>& change);
+
 // The same after a finite change: nodes, free stream and axis moved. Not copied: parts refer to one another.
 template <int Dim>
 struct ChangedDomain {

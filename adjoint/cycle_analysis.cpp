@@ -1,5 +1,7 @@
 #include "adjoint/cycle_analysis.hpp"
 
+#include "core/io/error.hpp"
+
 namespace wingbeat {
 namespace {
 
@@ -66,6 +68,25 @@ void CycleAnalysis<Dim>::solve(const Parameters<Dim>& change) {
   problem_->linearize(u_);
   if (!problem_->is_factored()) problem_->refactor();
   make_functional();
+}
+
+// w, y, omega, r.
+template <int Dim>
+std::vector<double> CycleAnalysis<Dim>::solution() const {
+  std::vector<double> packed = state_.w;
+  packed.insert(packed.end(), state_.y.begin(), state_.y.end());
+  packed.insert(packed.end(), {state_.omega, state_.r});
+  return packed;
+}
+
+template <int Dim>
+void CycleAnalysis<Dim>::start_from(std::span<const double> solution) {
+  const std::size_t cells = start_.w.size(), rest = start_.y.size() + 2;
+  ensure(solution.size() == cells + rest, "a cycle of another size");
+  start_.w.assign(solution.begin(), solution.begin() + static_cast<std::ptrdiff_t>(cells));
+  start_.y.assign(solution.begin() + static_cast<std::ptrdiff_t>(cells), solution.end() - 2);
+  start_.omega = solution[solution.size() - 2];
+  start_.r = solution.back();
 }
 
 template <int Dim>

@@ -33,7 +33,8 @@ class CycleAnalysis final : public Analysis<Dim> {
   const Functional<Dim>& functional() const override { return *functional_; }
   ParameterPoint<Dim> point() const override;
   void refactor() override { problem_->refactor(); }
-  void keep() override { start_ = state_; }
+  std::vector<double> solution() const override;
+  void start_from(std::span<const double> solution) override;
   const AeroelasticState& state() const { return state_; }
   // Another number of the same cycle from now on.
   void choose(CycleQuantity quantity);

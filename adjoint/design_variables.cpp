@@ -1,5 +1,7 @@
 #include "adjoint/design_variables.hpp"
 
+#include <algorithm>
+
 #include "core/io/error.hpp"
 
 namespace wingbeat {
@@ -21,18 +23,20 @@ double scale_of(Scalar scalar) {
 
 }  // namespace
 
-DesignVariables::DesignVariables(const GradientSettings& settings, const ShapeVariables& shape, double bound)
+DesignVariables::DesignVariables(const std::vector<std::string>& parameters, const ShapeVariables& shape,
+                                 double bound)
     : shape_(shape) {
-  if (settings.has("bumps")) {
+  const auto has = [&](const char* name) { return std::ranges::find(parameters, name) != parameters.end(); };
+  if (has("bumps")) {
     bump_count_ = static_cast<std::size_t>(shape.bumps().variables());
     for (std::size_t i = 0; i < bump_count_; ++i) {
       names_.push_back("bump " + std::to_string(i + 1));
       scales_.push_back(bound);
     }
   }
-  if (settings.has("mach")) scalars_.push_back(Scalar::mach);
-  if (settings.has("angle_of_attack")) scalars_.push_back(Scalar::angle_of_attack);
-  if (settings.has("structure"))
+  if (has("mach")) scalars_.push_back(Scalar::mach);
+  if (has("angle_of_attack")) scalars_.push_back(Scalar::angle_of_attack);
+  if (has("structure"))
     scalars_.insert(scalars_.end(),
                     {Scalar::elastic_axis, Scalar::static_unbalance, Scalar::gyration_radius_squared,
                      Scalar::frequency_ratio, Scalar::mass_ratio});

@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "adjoint/gradient_settings.hpp"
 #include "adjoint/parameters.hpp"
 #include "adjoint/shape_variables.hpp"
 
@@ -12,8 +11,9 @@ namespace wingbeat {
 // A list of variables that a gradient is taken with respect to: amplitudes of bumps and single numbers.
 class DesignVariables {
  public:
-  // `shape` is kept by reference; `bound`: the scale of a bump, chords.
-  DesignVariables(const GradientSettings& settings, const ShapeVariables& shape, double bound);
+  // `parameters`: of those that gradient.parameters allows, taken in its order. `shape` is kept by reference;
+  // `bound`: the scale of a bump, chords.
+  DesignVariables(const std::vector<std::string>& parameters, const ShapeVariables& shape, double bound);
 
   std::size_t size() const { return names_.size(); }
   std::size_t bump_count() const { return bump_count_; }  // they come first

@@ -38,7 +38,10 @@ class FlowAnalysis final : public Analysis<Dim> {
   const Functional<Dim>& functional() const override { return *functional_; }
   ParameterPoint<Dim> point() const override;
   void refactor() override { problem_->refactor(); }
-  void keep() override { start_ = w_; }
+  std::vector<double> solution() const override { return w_; }
+  void start_from(std::span<const double> solution) override {
+    start_.assign(solution.begin(), solution.end());
+  }
   // Another number of the same loads from now on.
   void choose(std::vector<WeightedLoad> objective);
 

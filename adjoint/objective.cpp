@@ -7,6 +7,7 @@ namespace {
 
 // Solutions within this of the tolerance are as good as round-off lets them be.
 constexpr double near = 1e3;
+constexpr int fair_try = 60;  // Krylov iterations
 
 }  // namespace
 
@@ -52,22 +53,32 @@ GmresStatus AdjointSolutions::status() const {
   return GmresStatus::converged;
 }
 
+bool is_near(const GmresResult& solve, const GmresOptions& options) {
+  return solve.relative_residual <= near * options.relative_tolerance;
+}
+
+template <int Dim>
+AdjointSolution solve_adjoint(Analysis<Dim>& analysis, const GmresOptions& options, int& factorizations) {
+  const Functional<Dim>& functional = analysis.functional();
+  const std::vector<double> by_state = functional.by_state();
+  // Factors of another solution get a fair try, not a long one.
+  GmresOptions first = options;
+  first.max_iterations = std::min(options.max_iterations, fair_try);
+  AdjointSolution adjoint = solve_adjoint(functional.comm(), functional.problem(), by_state, first);
+  if (is_near(adjoint.solve, options)) return adjoint;
+  analysis.refactor();
+  ++factorizations;
+  const int iterations = adjoint.solve.iterations;
+  adjoint = solve_adjoint(functional.comm(), functional.problem(), by_state, options);
+  adjoint.solve.iterations += iterations;
+  return adjoint;
+}
+
 template <int Dim>
 AdjointSolutions solve_adjoints(const Objective<Dim>& objective, const GmresOptions& options) {
   AdjointSolutions result;
-  for (const auto& [weight, analysis] : objective.terms) {
-    const Functional<Dim>& functional = analysis->functional();
-    const std::vector<double> by_state = functional.by_state();
-    AdjointSolution adjoint = solve_adjoint(functional.comm(), functional.problem(), by_state, options);
-    if (!(adjoint.solve.relative_residual <= near * options.relative_tolerance)) {
-      analysis->refactor();
-      ++result.factorizations;
-      const int iterations = adjoint.solve.iterations;
-      adjoint = solve_adjoint(functional.comm(), functional.problem(), by_state, options);
-      adjoint.solve.iterations += iterations;
-    }
-    result.terms.push_back(std::move(adjoint));
-  }
+  for (const auto& [weight, analysis] : objective.terms)
+    result.terms.push_back(solve_adjoint(*analysis, options, result.factorizations));
   return result;
 }
 
@@ -109,6 +120,7 @@ DirectionalDerivative objective_derivative(const Objective<Dim>& objective, cons
 }
 
 template struct Objective<2>;
+template AdjointSolution solve_adjoint<2>(Analysis<2>&, const GmresOptions&, int&);
 template AdjointSolutions solve_adjoints<2>(const Objective<2>&, const GmresOptions&);
 template std::vector<Parameters<2>> term_derivatives<2>(const Objective<2>&, const AdjointSolutions&);
 template Parameters<2> weighted_sum<2>(const std::vector<Parameters<2>>&, const std::vector<double>&);

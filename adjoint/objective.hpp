@@ -26,8 +26,14 @@ struct Objective {
   std::vector<double> weights() const;
 };
 
-// The adjoint of every term at the last solution. Factors that do not lead near the tolerance are renewed
-// once. Collective.
+// The adjoint of an analysis at its last solution. Factors that do not lead near the tolerance are renewed
+// once: `factorizations` then goes up. Collective.
+template <int Dim>
+AdjointSolution solve_adjoint(Analysis<Dim>& analysis, const GmresOptions& options, int& factorizations);
+// Whether its residual is as near the tolerance as round-off may leave it.
+bool is_near(const GmresResult& solve, const GmresOptions& options);
+
+// The same of every term.
 struct AdjointSolutions {
   std::vector<AdjointSolution> terms;
   int factorizations = 0;

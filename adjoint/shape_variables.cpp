@@ -14,6 +14,11 @@ std::vector<Vec<double, 2>> ShapeVariables::node_change(std::span<const double> 
   return deformation_.displacement(bumps_.displacement(amplitudes), nodes_.numbers);
 }
 
+MultiblockMesh<2> ShapeVariables::deformed_mesh(const Comm& comm, const MultiblockMesh<2>& mesh,
+                                                std::span<const double> amplitudes) const {
+  return deformed(comm, mesh, numbers_, deformation_, bumps_.displacement(amplitudes));
+}
+
 std::vector<Vec<double, 2>> ShapeVariables::wall_sensitivity(const Comm& comm,
                                                              std::span<const Vec<double, 2>> nodes) const {
   std::vector<Vec<double, 2>> wall(wall_.size());

@@ -21,7 +21,10 @@ class ShapeVariables {
 
   // Displacement of each local node.
   std::vector<Vec<double, 2>> node_change(std::span<const double> amplitudes) const;
-  // The transpose, in two steps: from this rank's part of the sensitivities to its nodes to those to the
+  // The whole mesh with its wall moved. Cells may fold. Collective.
+  MultiblockMesh<2> deformed_mesh(const Comm& comm, const MultiblockMesh<2>& mesh,
+                                  std::span<const double> amplitudes) const;
+  // The transpose of node_change, in two steps: from this rank's part of the sensitivities to its nodes to those to the
   // wall's nodes, summed over ranks, the mesh following the wall; from those to the amplitudes. Collective.
   std::vector<Vec<double, 2>> wall_sensitivity(const Comm& comm, std::span<const Vec<double, 2>> nodes) const;
   std::vector<double> amplitude_gradient(std::span<const Vec<double, 2>> wall) const {

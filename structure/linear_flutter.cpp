@@ -12,7 +12,6 @@ namespace wingbeat {
 namespace {
 
 constexpr int max_equilibria = 8;
-constexpr double settled_speed = 1e-4;  // relative change of V that ends the repetition
 
 // The section at rest at the speed given, or undeflected where it carries no load.
 template <int Dim>
@@ -154,7 +153,7 @@ LinearFlutterSolution<Dim> solve_linear_flutter(FlowLevelRange<Dim> levels, cons
       const FlutterRoot* lowest = lowest_destabilising(solution.flutter.roots);
       if (!lowest) return solution;
       const double found = lowest->reduced_velocity;
-      const bool is_settled = speed && std::abs(found - *speed) < settled_speed * found;
+      const bool is_settled = speed && std::abs(found - *speed) < options.settled_speed * found;
       if (deflects) speed = found;
       if (!deflects || is_settled) break;
     }

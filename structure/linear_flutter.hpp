@@ -50,6 +50,7 @@ struct LinearFlutterOptions {
   double tolerance = 1e-8;  // of the linear solves behind Q
   NewtonOptions newton{};   // of static equilibrium; its lengths of GMRES hold behind Q too
   AeroelasticTolerances tolerances{};
+  double settled_speed = 1e-4;         // relative change of V that ends the repetition of equilibrium and root
   std::function<bool()> is_stopped{};  // collective; polled between linear solves
 };
 

@@ -37,6 +37,10 @@ void Log::line(std::string_view text) {
   if (file_.is_open()) file_ << text << std::endl;
 }
 
+void Log::note(std::string_view text) {
+  if (file_.is_open()) file_ << text << std::endl;
+}
+
 void Log::warn(std::string_view text) {
   if (!speaks_) return;
   clear_status();

@@ -27,6 +27,8 @@ class Log {
   void line(fmt::format_string<Args...> format, Args&&... args) {
     if (speaks_) line(std::string_view(fmt::format(format, std::forward<Args>(args)...)));
   }
+  // In the file alone: what few want to read.
+  void note(std::string_view text);
   // On standard error and in the file; marked as a warning.
   void warn(std::string_view text);
 

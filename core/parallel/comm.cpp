@@ -104,6 +104,18 @@ Comm::Comm(MPI_Comm handle) : handle_(handle) {
   check_mpi(MPI_Comm_size(handle_, &size_));
 }
 
+SplitComm::SplitComm(const Comm& comm, int color)
+    : comm_([&] {
+        MPI_Comm part = MPI_COMM_NULL;
+        check_mpi(MPI_Comm_split(comm.handle(), color, comm.rank(), &part));
+        return Comm(part);
+      }()) {}
+
+SplitComm::~SplitComm() {
+  MPI_Comm handle = comm_.handle();
+  MPI_Comm_free(&handle);
+}
+
 double Comm::sum(double value) const {
   sum(std::span(&value, 1));
   return value;

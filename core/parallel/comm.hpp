@@ -50,6 +50,19 @@ class Comm {
   int size_ = 1;
 };
 
+// Ranks of a group, split off: those that name the same color form one, in the group's order.
+class SplitComm {
+ public:
+  SplitComm(const Comm& comm, int color);  // collective
+  ~SplitComm();
+  SplitComm(const SplitComm&) = delete;
+  SplitComm& operator=(const SplitComm&) = delete;
+  const Comm& get() const { return comm_; }
+
+ private:
+  Comm comm_;
+};
+
 // Initialises MPI for the life of the program; BLAS is kept to one thread a rank.
 // Catch exceptions within that life: MPI_Finalize waits for the other ranks.
 class MpiSession {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "adjoint/design_variables.hpp"
+#include "adjoint/gradient_settings.hpp"
 #include "test/adjoint/analysis_cases.hpp"
 
 namespace wingbeat::testing {
@@ -112,7 +113,7 @@ TEST(Gradient, AdjointIsTangentForHarmonicsOfForcedMotion) {
 
 std::vector<double> by_variables(const GradientSettings& settings, const ShapeVariables& shape,
                                  const Comm& ranks, const Parameters<2>& gradient) {
-  return DesignVariables(settings, shape, 0.01)
+  return DesignVariables(settings.parameters, shape, 0.01)
       .derivatives(shape.wall_sensitivity(ranks, gradient.nodes), gradient);
 }
 
