@@ -104,19 +104,24 @@ def draw(folder):
 
 
 def compare(folders):
-    found = [(folder, read_matrix(folder / SOURCE)) for folder in folders]
-    found = [(folder, table, read_matrix(folder / FORCED, table)) for folder, table in found
+    return overlay([(folder.name, folder) for folder in folders])
+
+
+def overlay(runs):
+    """The matrices of several runs, (name, folder) each; None if fewer than two have one of a section."""
+    found = [(name, folder, read_matrix(folder / SOURCE)) for name, folder in runs]
+    found = [(name, table, read_matrix(folder / FORCED, table)) for name, folder, table in found
              if table is not None and is_section(table)]
     if len(found) < 2:
         return None
     figure, panels = plt.subplots(2, len(ENTRIES), figsize=(13, 6.2), sharex=True, layout="constrained")
     for (upper, lower), (entry, label, load, _) in zip(panels.T, ENTRIES):
         first = None
-        for number, (folder, table, forced) in enumerate(found):
+        for number, (name, table, forced) in enumerate(found):
             k, size, phase = sizes_and_phases(table, entry)
             first = first or (k, phase)
             style = {"color": COLOURS[load], "linestyle": LINES[number % len(LINES)]}
-            upper.plot(k, size, label=folder.name, **style)
+            upper.plot(k, size, label=name, **style)
             lower.plot(k, beside(k, phase, *first), **style)
             if forced is not None:
                 at, forced_size, forced_phase = sizes_and_phases(forced, entry)
@@ -125,7 +130,8 @@ def compare(folders):
                            markerfacecolor="none")
         upper.set(title=label, ylim=(0.0, None))
         lower.set(xlabel=r"$k = \omega b/U$", xlim=(0.0, None))
-    panels[0, 0].set_ylabel(r"$|Q|$")
+        lower.yaxis.set_major_locator(plt.MaxNLocator(7, steps=[1, 2, 3, 5, 10], integer=True))
+    panels[0, 0].set_ylabel(r"$|Q|$, per radian and per semichord")
     panels[1, 0].set_ylabel("phase, deg")
     panels[0, 0].legend(loc="best", handlelength=3)
     figure.suptitle("Aerodynamic matrix" + SECTION, fontsize=11)

@@ -123,6 +123,16 @@ def plot_marches(panels, summaries):
                           label="marched in time" if number == 0 else None)
 
 
+def label_axes(panels):
+    panels[0].set(xlabel=r"reduced velocity $V = U/(c\,\omega_\alpha)$", ylabel=ENERGY)
+    panels[1].set(xlabel=r"frequency $\omega/\omega_\alpha$")
+    for axes in panels:
+        axes.locator_params(axis="x", nbins=6)
+        axes.set_ylim(bottom=0.0)
+        axes.margins(x=0.08)
+        axes.ticklabel_format(axis="x", useOffset=False)
+
+
 def draw_branches(folders, looks, marches):
     figure, panels = plt.subplots(1, 2, figsize=(11, 5.2), sharey=True, layout="constrained")
     plotted = [plot_branch(panels, folder, label, colour) for folder, (label, colour) in zip(folders, looks)]
@@ -132,13 +142,7 @@ def draw_branches(folders, looks, marches):
     if points:
         plot_flutter(panels, points[-1])
     plot_marches(panels, marches)
-    panels[0].set(xlabel=r"reduced velocity $V = U/(c\,\omega_\alpha)$", ylabel=ENERGY)
-    panels[1].set(xlabel=r"frequency $\omega/\omega_\alpha$")
-    for axes in panels:
-        axes.locator_params(axis="x", nbins=6)
-        axes.set_ylim(bottom=0.0)
-        axes.margins(x=0.08)
-        axes.ticklabel_format(axis="x", useOffset=False)
+    label_axes(panels)
     panels[0].legend(loc="best")
     figure.suptitle("Branch of limit cycles" if len(folders) == 1 else "Branches of limit cycles", fontsize=11)
     return figure

@@ -108,22 +108,27 @@ def draw(folder):
 
 
 def compare(folders):
-    found = [(folder, read_table(folder / SOURCE, COLUMNS)) for folder in folders]
-    found = [(folder, table) for folder, table in found if table is not None]
+    return overlay([(folder.name, folder) for folder in folders])
+
+
+def overlay(runs):
+    """The modes of several runs, (name, folder) each; None if fewer than two have any."""
+    found = [(name, folder, read_table(folder / SOURCE, COLUMNS)) for name, folder in runs]
+    found = [entry for entry in found if entry[2] is not None]
     if len(found) < 2:
         return None
     figure, panels = frame("Frequency and damping of the modes (p-k)")
-    for number, mode in enumerate(dict.fromkeys(mode for _, table in found for mode in groups(table["mode"]))):
+    for number, mode in enumerate(dict.fromkeys(mode for *_, table in found for mode in groups(table["mode"]))):
         panels[0].plot([], [], color=mode_colour(mode, number), label=name_of(mode))
-    for number, (folder, table) in enumerate(found):
+    for number, (name, folder, table) in enumerate(found):
         dashes = LINES[number % len(LINES)]
         plot_converged(panels, table, dashes, 1.4)
         point = read_result(folder).get("linear_flutter") or {}
         speed = point.get("reduced_velocity")
-        text = folder.name + (rf", $V_F$ = {speed:.4f}" if speed is not None else "")
+        text = name + (rf", $V_F$ = {speed:.4f}" if speed is not None else "")
         panels[0].plot([], [], color=COLOURS["line"], linestyle=dashes, label=text)
         if speed is not None:
             panels[0].plot([speed], [point["frequency_ratio"]], "D", color=COLOURS["flutter"], markersize=6, zorder=5)
             panels[1].plot([speed], [0.0], "D", color=COLOURS["flutter"], markersize=6, zorder=5)
-    finish(*panels, found[0][0])
+    finish(*panels, found[0][1])
     return figure

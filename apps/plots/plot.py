@@ -17,6 +17,9 @@ Each figure is drawn if its file is there:
     gradient.csv            name, derivative, difference                          gradient, parameter by parameter
     wall.csv                s, x, y, normal_x, ..., derivative_normal             sensitivity along the wall
     step_study.csv          step, difference, relative_error                      differences against the adjoint
+    optimization.csv        iteration, objective, outputs, errors, design          course of an optimisation
+    evaluations.jsonl       a line a design: outputs, flutter roots                roots over the iterations
+    baseline/, optimum/     airfoil.dat, runs of steady, lco, pk                   both sections on one figure
     mesh.csv                zone, i, j, x, y                                      mesh near the section
 pitch_rate is in radians; rates and times are in units of omega_alpha.
 result.json and case.toml add flutter points, Mach number and mass ratio.
@@ -40,6 +43,14 @@ try:
     import loops
     import march
     import mesh
+    import optimization_branches
+    import optimization_cost
+    import optimization_history
+    import optimization_matrix
+    import optimization_pk
+    import optimization_pressure
+    import optimization_roots
+    import optimization_section
     import phase_portrait
     import pk
     import pressure
@@ -55,7 +66,9 @@ except ModuleNotFoundError as missing:
     sys.exit(f"plot: Python at {sys.executable} has no {missing.name}; "
              "install it with: apt-get install python3-matplotlib")
 
-FIGURES = [branch, phase_portrait, march, response, pk, aerodynamic_matrix, loops, pressure, contours,
+OPTIMIZATION = [optimization_history, optimization_section, optimization_pressure, optimization_branches,
+                optimization_matrix, optimization_pk, optimization_roots, optimization_cost]
+FIGURES = [*OPTIMIZATION, branch, phase_portrait, march, response, pk, aerodynamic_matrix, loops, pressure, contours,
            gradient_bars, gradient_bumps, surface_sensitivity, gradient_steps, speed_convergence, convergence, mesh]
 COMPARISONS = [branch, phase_portrait, march, pressure_compare, pk, aerodynamic_matrix]
 

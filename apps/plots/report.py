@@ -7,6 +7,7 @@ from html import escape
 from pathlib import Path
 
 from gradient import gradient_of, objective
+from optimization_report import optimization_section
 from page import cell, figure, folded, link, page, section, table
 from read import read_result
 from runs import harmonics_of, march_summaries
@@ -101,7 +102,8 @@ def results_of(folder):
     cycles = [{key: number(text) for key, text in row.items()} for row in rows] or cycles
     branch = [(entry.get("point", n), entry) for n, entry in enumerate(cycles, 1)]
     cycle_table = entry_table(BRANCH_COLUMNS, branch, "point")
-    return "\n".join([section("Results", content), section("Branch of limit cycles", cycle_table),
+    return "\n".join([section("Results", content), optimization_section(folder),
+                      section("Branch of limit cycles", cycle_table),
                       gradient_section(folder)])
 
 

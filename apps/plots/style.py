@@ -24,6 +24,10 @@ COLOURS = {
     "march": "#1c1c1c",
     "adjoint": "#1f5fa8",
     "difference": "#c8501e",
+    # an optimisation
+    "baseline": "#4f5b66",
+    "optimum": "#1f5fa8",
+    "bound": "#b3152b",
     # surfaces of the section, where both curves may be one
     "upper": "#1f5fa8",
     "lower": "#c8501e",
