@@ -21,6 +21,7 @@ void CaseSettings::describe(SettingRegistry& registry) {
   registry.add_section("pk", "The table of frequency and damping against reduced velocity.", pk);
   registry.add_section("design", "Shape variables and how the mesh follows them.", design);
   registry.add_section("gradient", "What is differentiated, and with respect to what.", gradient);
+  registry.add_section("optimize", "What is optimised, by which variables, and how.", optimize);
   registry.add_section("solver", "How the equations are solved, and how far.", solver);
   registry.add_section("pseudo_time", "Runge-Kutta multigrid cycles of the flow.", pseudo_time);
   registry.add_section("staggered", "How flow and structure take turns in the staggered method.", staggered);

@@ -14,6 +14,7 @@
 #include "flow/flow_settings.hpp"
 #include "flow/pitch_settings.hpp"
 #include "flow/pseudo_time_settings.hpp"
+#include "optimize/optimize_settings.hpp"
 #include "partition/partition_settings.hpp"
 #include "structure/flutter_settings.hpp"
 #include "structure/lco_settings.hpp"
@@ -40,6 +41,7 @@ struct CaseSettings {
   PkSettings pk;
   DesignSettings design;
   GradientSettings gradient;
+  OptimizeSettings optimize;
   SolverSettings solver;
   PseudoTimeSettings pseudo_time;
   StaggeredSettings staggered;

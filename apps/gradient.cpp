@@ -123,7 +123,7 @@ SolveStatus run_gradient(Context& context) {
   FlowLevels<2> levels = make_levels<2>(context, make_plane_mesh(settings.mesh));
   FlowLevel<2>& level = *levels.back();
   const ShapeVariables shape(level.mesh, level.local, settings.design);
-  const DesignVariables variables(settings.gradient, shape, settings.design.bound);
+  const DesignVariables variables(settings.gradient.parameters, shape, settings.design.bound);
 
   GradientPrimal primal = [&] {
     const auto part = context.timer.measure("primal");

@@ -27,12 +27,6 @@ struct Failure {
   std::string message;
 };
 
-const Verb& find_verb(const std::string& name) {
-  const auto found = std::ranges::find(verbs(), name, &Verb::name);
-  ensure(found != verbs().end(), "verb without a recipe: " + name);
-  return *found;
-}
-
 int exit_code_of(SolveStatus status) {
   if (status == SolveStatus::converged) return exit_converged;
   return status == SolveStatus::interrupted ? exit_stopped : exit_not_converged;
@@ -59,10 +53,7 @@ ResolvedCase read_case(const Comm& comm, const CommandLine& command, const Verb&
 
 void prepare_output(const Comm& comm, const CommandLine& command, const ResolvedCase& resolved, Log& log) {
   on_root(comm, [&] {
-    const std::string head =
-        fmt::format("# wingbeat {} ({}): {} {} on {} rank{}\n\n", version(), git_commit(), command.verb,
-                    command.target, comm.size(), comm.size() == 1 ? "" : "s");
-    write_file(command.output / "case.toml", head + resolved.text);
+    write_file(command.output / "case.toml", case_head(comm, command.verb, command.target) + resolved.text);
     log.copy_to(command.output / "log.txt");
   });
 }
@@ -85,23 +76,13 @@ void remove_old_result(const Comm& comm, const fs::path& output) {
   });
 }
 
-void finish(const Comm& comm, Context& context) {
-  const auto timings = gather_timings(comm, context.timer);
+void finish(Context& context) {
+  const auto timings = gather_timings(context.comm, context.timer);
   for (const auto& timing : timings) context.result.wall_seconds.emplace_back(timing.path, timing.maximum);
   context.log.line(timing_table(timings));
-  on_root(comm, [&] { context.result.write(context.output / "result.json"); });
+  on_root(context.comm, [&] { context.result.write(context.output / "result.json"); });
   context.log.line("{} {}: results in {}", context.result.command, context.result.status,
                    context.output.string());
-}
-
-// A stage that a recipe cannot do without may end unsolved: the run then ends so, too.
-SolveStatus run_verb(const Verb& verb, Context& context) {
-  try {
-    return verb.run(context);
-  } catch (const SolveFailure& failure) {
-    context.result.message = failure.what();
-    return failure.status();
-  }
 }
 
 int execute(const Comm& comm, const CommandLine& command, Result& result, Timer& timer) {
@@ -132,12 +113,7 @@ int execute(const Comm& comm, const CommandLine& command, Result& result, Timer&
                   .timer = timer,
                   .result = result,
                   .stop = stop};
-  const SolveStatus status = run_verb(verb, context);
-  result.status = to_string(status);
-  if (result.message.empty()) result.message = general_advice(status);
-  if (status != SolveStatus::converged) log.warn(result.message);
-  finish(comm, context);
-  return exit_code_of(status);
+  return exit_code_of(run_recipe(verb, context));
 }
 
 void write_failure(const CommandLine& command, Result& result, const Timer& timer,
@@ -154,6 +130,35 @@ void write_failure(const CommandLine& command, Result& result, const Timer& time
 }
 
 }  // namespace
+
+SolveStatus run_recipe(const Verb& verb, Context& context) {
+  // A stage that a recipe cannot do without may end unsolved: the run then ends so, too.
+  const SolveStatus status = [&] {
+    try {
+      return verb.run(context);
+    } catch (const SolveFailure& failure) {
+      context.result.message = failure.what();
+      return failure.status();
+    }
+  }();
+  Result& result = context.result;
+  result.status = to_string(status);
+  if (result.message.empty()) result.message = general_advice(status);
+  if (status != SolveStatus::converged) context.log.warn(result.message);
+  finish(context);
+  return status;
+}
+
+const Verb& find_verb(const std::string& name) {
+  const auto found = std::ranges::find(verbs(), name, &Verb::name);
+  ensure(found != verbs().end(), "verb without a recipe: " + name);
+  return *found;
+}
+
+std::string case_head(const Comm& comm, const std::string& verb, const std::string& case_path) {
+  return fmt::format("# wingbeat {} ({}): {} {} on {} rank{}\n\n", version(), git_commit(), verb, case_path,
+                     comm.size(), comm.size() == 1 ? "" : "s");
+}
 
 int run_case(const Comm& comm, const CommandLine& command) {
   FailureAgreement agreement(comm);

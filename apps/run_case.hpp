@@ -1,6 +1,7 @@
 #pragma once
 
 #include "apps/command_line.hpp"
+#include "apps/verbs.hpp"
 #include "core/parallel/comm.hpp"
 
 namespace wingbeat {
@@ -12,6 +13,14 @@ enum ExitCode {
   exit_internal = 3,
   exit_stopped = 4
 };
+
+const Verb& find_verb(const std::string& name);  // one that there is
+
+// Runs a verb's recipe, and writes its result.json with what it took. Collective.
+SolveStatus run_recipe(const Verb& verb, Context& context);
+
+// The first lines of a case.toml that a run leaves: version, ranks and where it came from.
+std::string case_head(const Comm& comm, const std::string& verb, const std::string& case_path);
 
 // Reads the case, runs the verb's recipe and leaves result.json in the output folder, whatever
 // happens. Returns the exit code, the same on all ranks; a failure of some ranks only ends all.

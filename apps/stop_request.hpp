@@ -13,6 +13,9 @@ class StopRequest {
   // Catches both signals from now on. `walltime` in seconds from now; none: unlimited.
   StopRequest(const Comm& comm, std::optional<double> walltime);
 
+  // The same request, polled by other ranks: those of `comm`.
+  StopRequest(const Comm& comm, const StopRequest& other) : comm_(&comm), deadline_(other.deadline_) {}
+
   // Collective: all ranks get the same answer.
   bool is_set() const;
 

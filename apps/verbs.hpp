@@ -19,6 +19,7 @@ SolveStatus run_lco(Context& context);
 SolveStatus run_march(Context& context);
 SolveStatus run_pk(Context& context);
 SolveStatus run_gradient(Context& context);
+SolveStatus run_optimize(Context& context);
 SolveStatus run_mesh(Context& context);
 SolveStatus run_partition(Context& context);
 
@@ -28,10 +29,14 @@ std::vector<std::string> lco_faults(const CaseSettings& settings);
 std::vector<std::string> pk_faults(const CaseSettings& settings);
 std::vector<std::string> gradient_faults(const CaseSettings& settings);
 
+std::vector<std::string> optimize_faults(const CaseSettings& settings);
+
 // The sections that pk needs: those of mesh and flow unless Q(k) is read from a file.
 std::vector<std::string> pk_sections(const CaseSettings& settings);
 // The sections that a gradient needs: those of the verb that its objective is a number of.
 std::vector<std::string> gradient_sections(const CaseSettings& settings);
+// The sections that an optimisation needs: those of the outputs it names.
+std::vector<std::string> optimize_sections(const CaseSettings& settings);
 
 // A verb of the command line that works on a case.
 struct Verb {
