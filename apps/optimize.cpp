@@ -35,12 +35,9 @@ struct Setup {
 
 Setup make_setup(const CaseSettings& settings) {
   Setup setup{problem_statement(settings.optimize), {}, {}};
-  const auto add = [&](const std::string& output) {
+  setup.named = setup.statement.outputs();
+  for (const std::string& output : settings.optimize.monitor)
     if (std::ranges::find(setup.named, output) == setup.named.end()) setup.named.push_back(output);
-  };
-  for (const ObjectiveTerm& term : setup.statement.objective.terms) add(term.output);
-  for (const Requirement& requirement : setup.statement.requirements) add(requirement.output);
-  for (const std::string& output : settings.optimize.monitor) add(output);
   setup.plans = plan_analyses(settings, setup.named);
   return setup;
 }
@@ -48,8 +45,9 @@ Setup make_setup(const CaseSettings& settings) {
 // Faces of the wall keep this part of their length.
 constexpr double least_face = 0.25;
 
-DesignSpace design_space(const CaseSettings& settings, const DesignVariables& variables,
+DesignSpace design_space(const Context& context, const DesignVariables& variables,
                          const ShapeVariables& shape) {
+  const CaseSettings& settings = context.settings;
   DesignSpace space;
   for (std::size_t i = 0; i < variables.size(); ++i) {
     const double bound =
@@ -61,15 +59,16 @@ DesignSpace design_space(const CaseSettings& settings, const DesignVariables& va
   }
   const auto& start = settings.optimize.start;
   if (!start.empty() && start.size() != variables.size())
-    throw InputError(
-        fmt::format("optimize.start: {} numbers, but there are {} variables ({}{}); give one each",
-                    start.size(), variables.size(), variables.name(0),
-                    variables.size() > 1 ? " to " + variables.name(variables.size() - 1) : ""));
+    throw InputError(fmt::format("{}: {} numbers, but there are {} variables ({}{}); give one each",
+                                 context.place("optimize.start"), start.size(), variables.size(),
+                                 variables.name(0),
+                                 variables.size() > 1 ? " to " + variables.name(variables.size() - 1) : ""));
   space.start = start.empty() ? std::vector<double>(variables.size(), 0.0) : start;
   for (std::size_t i = 0; i < space.start.size(); ++i)
     if (std::abs(space.start[i]) > space.upper[i])
-      throw InputError(fmt::format("optimize.start: {} = {:g} lies outside its bounds, {:g} to {:g}",
-                                   space.names[i], space.start[i], space.lower[i], space.upper[i]));
+      throw InputError(fmt::format("{}: {} = {:g} lies outside its bounds, {:g} to {:g}",
+                                   context.place("optimize.start"), space.names[i], space.start[i],
+                                   space.lower[i], space.upper[i]));
   if (variables.bump_count() > 0)
     space.limits = wall_limits(shape.wall(), shape.bumps(), settings.design.bound, least_face);
   return space;
@@ -110,7 +109,8 @@ std::vector<std::string> optimize_sections(const CaseSettings& settings) {
 std::vector<std::string> optimize_faults(const CaseSettings& settings) {
   const OptimizeSettings& optimize = settings.optimize;
   std::vector<std::string> faults = statement_faults(optimize);
-  for (const std::string& fault : ipopt_option_faults(optimize.ipopt)) faults.push_back(fault);
+  for (const std::string& fault : ipopt_option_faults(optimize.ipopt))
+    faults.push_back("optimize.ipopt = " + fault);
   if (!faults.empty()) return faults;
   const Setup setup = make_setup(settings);
   const auto names = [&](const std::string& output) {
@@ -120,16 +120,16 @@ std::vector<std::string> optimize_faults(const CaseSettings& settings) {
   if ((names("lco_amplitude") || names("lco_energy")) && !settings.lco.reduced_velocity)
     faults.push_back(
         "lco.reduced_velocity: missing; lco_amplitude and lco_energy are of the cycle at a given speed V "
-        "(number, "
-        "> 0)");
+        "(number, > 0)");
   if ((names("lco_speed") || names("lco_frequency")) && energies != 1)
     faults.push_back(
         fmt::format("lco.energies: lco_speed and lco_frequency are of the cycle of one given E_0, {} are "
-                    "given; give a list of "
-                    "one number, or use least_lco_speed",
+                    "given; give a list of one number, or use least_lco_speed",
                     energies));
   if (names("least_lco_speed") && energies == 0)
     faults.push_back("lco.energies: missing; least_lco_speed is the least over these (list of numbers, > 0)");
+  if (std::ranges::find(optimize.compare, "lco") != optimize.compare.end())
+    for (const std::string& fault : lco_faults(settings)) faults.push_back("optimize.compare: lco: " + fault);
   if (optimize.groups > static_cast<int>(std::max<std::size_t>(1, setup.plans.size())))
     faults.push_back(fmt::format("optimize.groups = {}: the problem has {} analyses; lower it",
                                  optimize.groups, setup.plans.size()));
@@ -155,7 +155,7 @@ SolveStatus run_optimize(Context& context) {
   FlowLevel<2>& level = *levels.back();
   const ShapeVariables shape(level.mesh, level.local, settings.design);
   const DesignVariables variables(settings.optimize.variables, shape, settings.design.bound);
-  DesignSpace space = design_space(settings, variables, shape);
+  DesignSpace space = design_space(context, variables, shape);
   BaselineAnalyses analyses = [&] {
     const auto part = context.timer.measure("baseline");
     return solve_baseline(baseline.context(), levels, shape, plans);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 
 #include "apps/cycle_primal.hpp"
 #include "apps/flow_setup.hpp"
@@ -97,7 +98,12 @@ BaselineAnalyses solve_baseline(Context& context, FlowLevels<2>& levels, const S
                                 const std::vector<AnalysisPlan>& plans) {
   const CaseSettings& settings = context.settings;
   History history(context);
-  CyclePrimal cycles(context, levels, shape, history);
+  // A case of loads alone has no structure to make it of.
+  std::unique_ptr<CyclePrimal> made;
+  const auto cycles = [&]() -> CyclePrimal& {
+    if (!made) made = std::make_unique<CyclePrimal>(context, levels, shape, history);
+    return *made;
+  };
   BaselineAnalyses baseline;
   std::vector<double> energies;
   std::vector<std::pair<std::string, Names>> of_energies;
@@ -111,15 +117,15 @@ BaselineAnalyses solve_baseline(Context& context, FlowLevels<2>& levels, const S
         break;
       }
       case Kind::flutter:
-        take(cycles.flutter(), {{"flutter", plan.outputs}}, baseline);
+        take(cycles().flutter(), {{"flutter", plan.outputs}}, baseline);
         break;
       case Kind::cycle_at_speed: {
         const double v = *settings.lco.reduced_velocity;
-        take(cycles.at_speed(v), {{fmt::format("cycle at V = {:g}", v), plan.outputs}}, baseline);
+        take(cycles().at_speed(v), {{fmt::format("cycle at V = {:g}", v), plan.outputs}}, baseline);
         break;
       }
       case Kind::onset:
-        take(cycles.onset(settings.gradient.onset_energy),
+        take(cycles().onset(settings.gradient.onset_energy),
              {{"onset 1", {plan.outputs[0]}}, {"onset 2", {plan.outputs[1]}}, {"onset 3", {plan.outputs[2]}}},
              baseline);
         break;
@@ -131,7 +137,7 @@ BaselineAnalyses solve_baseline(Context& context, FlowLevels<2>& levels, const S
   }
   // One branch leads to all of them.
   if (baseline.status == SolveStatus::converged && !energies.empty())
-    take(cycles.of_energies(energies), of_energies, baseline);
+    take(cycles().of_energies(energies), of_energies, baseline);
   return baseline;
 }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "apps/flow_setup.hpp"
 #include "apps/on_root.hpp"
 #include "apps/sub_run.hpp"
 #include "core/io/file.hpp"
@@ -74,7 +75,11 @@ SolveStatus finish_optimization(Context& context, const MultiblockMesh<2>& mesh,
   const SectionFolder sections[] = {write_section(context, "baseline", mesh, shape, none, 0.0),
                                     write_section(context, "optimum", mesh, shape, amplitudes, turn)};
   on_root(comm, [&] { context.result.write(context.output / "result.json"); });
-  for (const std::string& verb : context.settings.optimize.compare)
+  for (const std::string& verb : context.settings.optimize.compare) {
+    if (verb != "steady" && !has_structure(context.settings)) {
+      context.log.line("optimize.compare: {} is left out: the case has no [structure]", verb);
+      continue;
+    }
     for (const SectionFolder& section : sections) {
       if (context.stop.is_set()) return SolveStatus::interrupted;
       context.log.line("\n{}: {}", section.folder.filename().string(), verb);
@@ -82,6 +87,7 @@ SolveStatus finish_optimization(Context& context, const MultiblockMesh<2>& mesh,
       context.result.findings["comparison"][section.folder.filename().string()][verb] = {
           {"status", result.status}, {"message", result.message}};
     }
+  }
   return outcome.status;
 }
 

@@ -1,9 +1,8 @@
 #include "optimize/optimization_problem.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/io/error.hpp"
 
@@ -11,18 +10,6 @@ namespace wingbeat {
 namespace {
 
 double size_or_one(double value) { return value != 0.0 ? std::abs(value) : 1.0; }
-
-// The first pair of constraints of one output that nothing can meet.
-void refuse_crossing(const std::vector<Constraint>& constraints) {
-  for (const Constraint& a : constraints)
-    for (const Constraint& b : constraints)
-      if (a.output == b.output && a.lower > b.upper)
-        throw InputError(
-            fmt::format("optimize.constraints: \"{}\" and \"{}\" cross: {} is to be at least {:.8g} and at "
-                        "most {:.8g} (its "
-                        "baseline is {:.8g}); loosen one of the two",
-                        a.text, b.text, a.output, a.lower, b.upper, a.baseline));
-}
 
 }  // namespace
 
@@ -41,13 +28,15 @@ OptimizationProblem make_problem(const ProblemStatement& statement, const std::v
   problem.is_maximized = statement.objective.is_maximized;
   for (const ObjectiveTerm& term : statement.objective.terms)
     problem.objective.push_back({term.output, term.weight, size_or_one(value_of(term.output))});
+  std::map<std::string, double> baselines;
   for (const Requirement& requirement : statement.requirements) {
-    const double value = value_of(requirement.output);
+    const double value = baselines[requirement.output] = value_of(requirement.output);
     const Interval allowed = interval(requirement, value);
     problem.constraints.push_back({requirement.text, requirement.output, allowed.lower, allowed.upper,
-                                   violation_scale(requirement, value), value});
+                                   violation_scale(requirement, value)});
   }
-  refuse_crossing(problem.constraints);
+  if (const auto crossing = bounds_cross(statement.requirements, baselines); !crossing.empty())
+    throw InputError("optimize.constraints cross: " + crossing.front());
   problem.space = std::move(space);
   return problem;
 }

@@ -22,8 +22,7 @@ struct Constraint {
   std::string text;  // as stated
   std::string output;
   double lower, upper;
-  double scale;     // of a violation that is neither small nor large
-  double baseline;  // the output of the undeformed section
+  double scale;  // of a violation that is neither small nor large
 
   // Over the scale; 0 where it is met.
   double violation(double value) const;

@@ -1,29 +1,9 @@
 #include "optimize/optimize_settings.hpp"
 
-#include <algorithm>
-
 #include "optimize/named_problems.hpp"
 #include "optimize/output_names.hpp"
-#include "optimize/statement_words.hpp"
 
 namespace wingbeat {
-
-bool OptimizeSettings::has_variable(const std::string& name) const {
-  return std::ranges::find(variables, name) != variables.end();
-}
-
-bool OptimizeSettings::compares(const std::string& verb) const {
-  return std::ranges::find(compare, verb) != compare.end();
-}
-
-std::optional<std::pair<std::string, std::string>> ipopt_option(const std::string& entry) {
-  const std::size_t equals = entry.find('=');
-  if (equals == std::string::npos) return std::nullopt;
-  const std::string_view text = entry;
-  std::string name(trimmed(text.substr(0, equals))), value(trimmed(text.substr(equals + 1)));
-  if (name.empty() || value.empty()) return std::nullopt;
-  return std::pair(std::move(name), std::move(value));
-}
 
 void OptimizeSettings::describe(SettingSection& keys) {
   keys.add(

@@ -2,7 +2,6 @@
 
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/io/settings.hpp"
@@ -27,13 +26,7 @@ struct OptimizeSettings {
   double root_margin = 0.05;
   int max_bisections = 1;
 
-  bool has_variable(const std::string& name) const;
-  bool compares(const std::string& verb) const;
-
   void describe(SettingSection& keys);
 };
-
-// Name and value of an entry of `ipopt`; nothing where it is not "name = value".
-std::optional<std::pair<std::string, std::string>> ipopt_option(const std::string& entry);
 
 }  // namespace wingbeat

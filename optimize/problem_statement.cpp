@@ -107,12 +107,6 @@ std::vector<std::string> statement_faults(const OptimizeSettings& settings) {
   read_statement(settings, faults);
   if (settings.variables.empty())
     faults.push_back("optimize.variables = []: nothing to vary; name \"bumps\", \"angle_of_attack\" or both");
-  for (const std::string& entry : settings.ipopt)
-    if (!ipopt_option(entry))
-      faults.push_back(
-          fmt::format("optimize.ipopt = \"{}\": not an option of Ipopt; write \"name = value\", such as "
-                      "\"mu_strategy = adaptive\"",
-                      entry));
   return faults;
 }
 

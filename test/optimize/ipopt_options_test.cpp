@@ -81,5 +81,16 @@ TEST(IpoptOptions, ALinearSolverThatIsNotInstalledIsTheCasesFault) {
   EXPECT_THROW(minimize(program, {.extra = {"linear_solver = wsmp"}}), InputError);
 }
 
+TEST(IpoptOptions, AreNamesWithValues) {
+  const auto spaced = parse_assignment(" mu_init =  1e-2 "), twice = parse_assignment("a = b = c");
+  ASSERT_TRUE(spaced && twice);
+  EXPECT_EQ(spaced->name, "mu_init");
+  EXPECT_EQ(spaced->value, "1e-2");
+  EXPECT_EQ(twice->name, "a");
+  EXPECT_EQ(twice->value, "b = c");
+  for (const char* text : {"", "mu_init", "mu_init =", "= 1", " = "})
+    EXPECT_FALSE(parse_assignment(text)) << text;
+}
+
 }  // namespace
 }  // namespace wingbeat

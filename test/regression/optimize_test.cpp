@@ -97,6 +97,7 @@ TEST_F(Optimize, RefusesStatementsThatMakeNoSense) {
   refused({"optimize.constraints=[\"drag <= 0.001\",\"drag >= 0.002\"]"}, "drag");
   refused({"optimize.ipopt=[\"mu_strateg = adaptive\"]"}, "mu_strategy");
   refused({"optimize.groups=7"}, "optimize.groups");
+  refused({"optimize.compare=[\"lco\"]"}, "lco.energies");
 }
 
 // What needs the undeformed section first is refused once that is solved.
@@ -110,6 +111,19 @@ TEST_F(Optimize, RefusesWhatTheBaselineShowsToMakeNoSense) {
   refused({"optimize.start=[0.1]"}, "optimize.start");
   optimum("naca64a010-flutter", "first", {low_cap, "optimize.max_iterations=40"});
   refused({low_cap, "flow.mach=0.79", "--restart", "first/evaluations.jsonl"}, "flow.mach");
+}
+
+// A section without structure has no flutter to compare: the default comparison leaves it out.
+TEST_F(Optimize, ReducesTheDragOfASectionWithoutStructure) {
+  write("drag.toml",
+        "[mesh]\nairfoil = \"naca64a010\"\ncells = [48, 12]\n[flow]\nmach = 0.8\n[design]\nbumps = 8\n"
+        "[optimize]\nobjective = \"drag\"\nconstraints = [\"area >= 0.98 baseline\"]\n");
+  const ProgramRun done = run({"optimize", "drag.toml", "--output", "drag"});
+  ASSERT_EQ(done.exit_code, 0) << done.errors;
+  const auto found = result("drag")["optimization"];
+  EXPECT_LT(found["objective_final"].get<double>(), 0.9 * found["objective_initial"].get<double>());
+  EXPECT_LE(found["constraints"]["area >= 0.98 baseline"]["violation"], 1e-4);
+  EXPECT_EQ(result("drag/optimum/steady")["status"], "converged");
 }
 
 TEST_F(Optimize, AnInfeasibleStartIsToldOfAndMended) {
