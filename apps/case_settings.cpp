@@ -22,6 +22,8 @@ void CaseSettings::describe(SettingRegistry& registry) {
   registry.add_section("design", "Shape variables and how the mesh follows them.", design);
   registry.add_section("gradient", "What is differentiated, and with respect to what.", gradient);
   registry.add_section("optimize", "What is optimised, by which variables, and how.", optimize);
+  registry.add_section("sweep", "A verb run at many points, and which keys change from point to point.",
+                       sweep);
   registry.add_section("solver", "How the equations are solved, and how far.", solver);
   registry.add_section("pseudo_time", "Runge-Kutta multigrid cycles of the flow.", pseudo_time);
   registry.add_section("staggered", "How flow and structure take turns in the staggered method.", staggered);
@@ -29,9 +31,9 @@ void CaseSettings::describe(SettingRegistry& registry) {
 
 ResolvedCase resolve_case(const std::string& text, const std::string& path,
                           const std::vector<std::string>& overrides, const UsedSections& used_sections,
-                          const std::string& reader) {
+                          const std::string& reader, const std::string& override_place) {
   CaseFile file(text, path);
-  for (const auto& assignment : overrides) file.add_override(assignment);
+  for (const auto& assignment : overrides) file.add_override(assignment, override_place);
   ResolvedCase resolved;
   SettingRegistry registry;
   resolved.settings.describe(registry);

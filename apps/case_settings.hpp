@@ -7,6 +7,7 @@
 
 #include "adjoint/design_settings.hpp"
 #include "adjoint/gradient_settings.hpp"
+#include "apps/sweep/sweep_settings.hpp"
 #include "core/algebra/solver_settings.hpp"
 #include "core/io/settings.hpp"
 #include "core/mesh/mesh_settings.hpp"
@@ -42,6 +43,7 @@ struct CaseSettings {
   DesignSettings design;
   GradientSettings gradient;
   OptimizeSettings optimize;
+  SweepSettings sweep;
   SolverSettings solver;
   PseudoTimeSettings pseudo_time;
   StaggeredSettings staggered;
@@ -60,11 +62,11 @@ struct ResolvedCase {
 };
 
 // Reads a case from its text, its path as the user gave it, and `section.key=value` overrides.
-// Throws InputError listing all faults; required keys are those of the sections that `used_sections` names
-// for the values read.
+// Throws InputError listing all faults, those of overrides under `override_place`; required keys are those of
+// the sections that `used_sections` names for the values read.
 using UsedSections = std::function<std::vector<std::string>(const CaseSettings&)>;
 ResolvedCase resolve_case(const std::string& text, const std::string& path,
                           const std::vector<std::string>& overrides, const UsedSections& used_sections,
-                          const std::string& reader);
+                          const std::string& reader, const std::string& override_place = "command line");
 
 }  // namespace wingbeat

@@ -62,6 +62,16 @@ void add_case_verb(CLI::App& app, const Verb& verb, CommandLine& line) {
   if (verb.name == "gradient")
     command->add_flag("--check", line.check,
                       "compare the gradient with a tangent solve and with differences of whole solutions");
+  if (verb.name == "sweep") {
+    command
+        ->add_option_function<int>(
+            "--groups",
+            [&line](int groups) { line.overrides.push_back(fmt::format("sweep.groups={}", groups)); },
+            "groups of ranks that take points from one queue (the same as sweep.groups=G)")
+        ->option_text("G")
+        ->check(CLI::Range(1, 10'000'000));
+    command->add_flag("--retry-failed", line.retry_failed, "try points again that failed in an earlier run");
+  }
   if (verb.name == "partition")
     command->add_option("--ranks", line.ranks, "ranks to plan for (default: those that run)")
         ->option_text("N")

@@ -20,6 +20,7 @@ struct CommandLine {
   bool markdown = false;
   bool find_flutter = false;
   bool check = false;
+  bool retry_failed = false;
 
   std::string answer;  // what --help or --version asked for; there is nothing to run then
 };

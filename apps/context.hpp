@@ -13,6 +13,14 @@
 
 namespace wingbeat {
 
+// A solved case like this one, in a folder, from which a run starts; and another on the line through both
+// cases: this one lies `ahead` times their distance beyond the first.
+struct Neighbour {
+  std::filesystem::path folder;
+  std::optional<std::filesystem::path> before{};
+  double ahead = 0.0;
+};
+
 // What a recipe works with.
 struct Context {
   const Comm& comm;
@@ -20,8 +28,10 @@ struct Context {
   const KeySources& sources;
   std::filesystem::path output;                  // folder of the results; exists
   std::optional<std::filesystem::path> restart;  // solution to start from
+  std::optional<Neighbour> neighbour;            // where flow and cycles are sought nearby; not a restart
   bool find_flutter;                             // of a march: --find-flutter
   bool check;                                    // of a gradient: --check
+  bool retry_failed;                             // of a sweep: --retry-failed
   int planned_ranks;                             // of a partition: --ranks, or those that run
   Log& log;                                      // rank 0 speaks
   Timer& timer;

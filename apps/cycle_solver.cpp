@@ -52,9 +52,8 @@ TimeSpectral time_of(const AeroelasticState& state) {
   return TimeSpectral((static_cast<int>(state.y.size() / 4) - 1) / 2);
 }
 
-CycleStart CycleSolver::linear_start(LinearFlutterSolution<2>& linear, const FlowLevel<2>& linearized,
-                                     double energy) {
-  const FlutterRoot& root = *linear.flutter.root;
+CycleStart CycleSolver::linear_start(LinearFlutterSolution<2>& linear, const FlutterRoot& root,
+                                     const FlowLevel<2>& linearized, double energy) {
   const Eigen::VectorXcd u_hat = scaled_to_energy(model_, root.mode, root.frequency, energy);
   CycleStart start;
   start.state = linear.section->harmonic_state(model_, time_, u_hat, root.frequency, root.reduced_velocity);
@@ -79,6 +78,11 @@ CycleStart CycleSolver::restart(AeroelasticState state) {
   start.rest = {mean_instance(start.state.w, time_), mean_instance(start.state.y, time_), 0.0, start.state.r};
   start.factors = unfactored(level_.comm(), level_.subdomain, state_size<2>, time_.harmonics());
   return start;
+}
+
+CycleStart CycleSolver::moved(AeroelasticState cycle, double energy) {
+  const AeroelasticState rest{mean_instance(cycle.w, time_), mean_instance(cycle.y, time_), 0.0, cycle.r};
+  return grown(std::move(cycle), rest, energy);
 }
 
 CycleStart CycleSolver::grown(AeroelasticState state, const AeroelasticState& rest, double energy) {

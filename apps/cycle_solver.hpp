@@ -59,8 +59,11 @@ class CycleSolver {
 
   // Small motion of the given energy at a flutter root, by the linearization on the level itself or, with
   // a staggered method, on a coarser one: no matrix of the level's size is then factored.
-  CycleStart linear_start(LinearFlutterSolution<2>& linear, const FlowLevel<2>& linearized, double energy);
+  CycleStart linear_start(LinearFlutterSolution<2>& linear, const FlutterRoot& root,
+                          const FlowLevel<2>& linearized, double energy);
   CycleStart restart(AeroelasticState state);
+  // A cycle of a case like this one.
+  CycleStart moved(AeroelasticState cycle, double energy);
   // A solved cycle blown up or down, about the state of rest, to another energy.
   CycleStart grown(AeroelasticState state, const AeroelasticState& rest, double energy);
 

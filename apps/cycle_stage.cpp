@@ -1,7 +1,8 @@
 #include "apps/cycle_stage.hpp"
 
-#include "apps/flow_setup.hpp"
-#include "apps/linear_flutter_output.hpp"
+#include <iterator>
+
+#include "apps/flutter_starts.hpp"
 #include "apps/solution_output.hpp"
 #include "apps/steady_stage.hpp"
 
@@ -14,28 +15,21 @@ CycleApproach approach_cycle(Context& context, FlowLevels<2>& levels, const Stru
   if (context.restart) {
     // A periodic solution goes straight on; a steady one is where the steady flow starts.
     AeroelasticState state = read_restart(context, level, {1, 2 * settings.time.harmonics + 1});
-    if (state.y.size() > 4) return {SolveStatus::converged, solver.restart(std::move(state))};
+    if (state.y.size() > 4) return {SolveStatus::converged, solver.restart(std::move(state)), {}};
     level.w = std::move(state.w);
   }
-  const SolveStatus steady = run_steady_stage(context, levels, history, true);
-  if (steady != SolveStatus::converged) return {steady, std::nullopt};
+  std::vector<CycleStart> starts;
+  if (context.neighbour) starts = neighbouring_starts(context, levels, model, solver, energy);
+  if (starts.empty()) {
+    const SolveStatus steady = run_steady_stage(context, levels, history, true);
+    if (steady != SolveStatus::converged) return {steady, std::nullopt, {}};
 
-  // By turns, the root of the next coarser mesh is near enough to start from.
-  const FlowLevelRange<2> all(levels);
-  const FlowLevelRange<2> linearized =
-      settings.solver.is_staggered() && levels.size() > 1 ? all.first(levels.size() - 1) : all;
-  LinearFlutterSolution<2> linear;
-  {
-    const auto part = context.timer.measure("linear flutter");
-    linear = solve_linear_flutter<2>(linearized, model, section_kinematics(settings),
-                                     linear_flutter_options(context));
+    starts = flutter_starts(context, levels, model, solver, energy);
   }
-  report_linear_flutter(context, linear.flutter);
-  if (!linear.flutter.root) {
-    context.result.message = no_flutter_message(settings);
-    return {SolveStatus::stalled, std::nullopt};
-  }
-  return {SolveStatus::converged, solver.linear_start(linear, *linearized.back(), energy)};
+  if (starts.empty()) return {SolveStatus::stalled, std::nullopt, {}};
+  CycleApproach approach{SolveStatus::converged, std::move(starts.front()), {}};
+  approach.further.assign(std::make_move_iterator(starts.begin() + 1), std::make_move_iterator(starts.end()));
+  return approach;
 }
 
 }  // namespace wingbeat

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "apps/cycle_solver.hpp"
 #include "flow/steady_sequence.hpp"
@@ -13,6 +14,7 @@ namespace wingbeat {
 struct CycleApproach {
   SolveStatus status = SolveStatus::converged;
   std::optional<CycleStart> start;
+  std::vector<CycleStart> further;  // at the flutter roots above, with flutter.roots = "all"
 };
 CycleApproach approach_cycle(Context& context, FlowLevels<2>& levels, const StructureModel& model,
                              CycleSolver& solver, double energy, History& history);

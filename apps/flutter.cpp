@@ -1,11 +1,32 @@
+#include <algorithm>
+
 #include "apps/case_mesh.hpp"
 #include "apps/cycle_record.hpp"
 #include "apps/cycle_stage.hpp"
 #include "apps/flow_setup.hpp"
+#include "apps/neighbour.hpp"
 #include "apps/solution_output.hpp"
 #include "apps/verbs.hpp"
 
 namespace wingbeat {
+namespace {
+
+// The lowest of those that converged first.
+void sort_by_speed(std::vector<CycleSolution>& solutions) {
+  std::ranges::stable_sort(solutions, {}, [](const CycleSolution& solution) {
+    return std::pair(solution.status != SolveStatus::converged, solution.state.r);
+  });
+}
+
+// Roots that lie close together may lead to one cycle.
+bool is_known(const std::vector<CycleSolution>& solutions, const CycleSolution& solution) {
+  return std::ranges::any_of(solutions, [&](const CycleSolution& known) {
+    return CycleRecord::is_same(known.state.omega, solution.state.omega) &&
+           CycleRecord::is_same(known.state.r, solution.state.r);
+  });
+}
+
+}  // namespace
 
 SolveStatus run_flutter(Context& context) {
   const CaseSettings& settings = context.settings;
@@ -18,19 +39,41 @@ SolveStatus run_flutter(Context& context) {
   const CycleApproach approach = approach_cycle(context, levels, model, solver, energy, history);
   if (!approach.start) return approach.status;
 
-  const CycleSolution solution = solver.solve("flutter", *approach.start, GivenEnergy{energy});
+  std::vector<CycleSolution> solutions{solver.solve("flutter", *approach.start, GivenEnergy{energy})};
+  for (const CycleStart& start : approach.further) {
+    if (solutions.back().status == SolveStatus::interrupted) break;
+    const std::string stage = fmt::format("flutter, root {}", solutions.size() + 1);
+    CycleSolution solution = solver.solve(stage, start, GivenEnergy{energy});
+    if (!is_known(solutions, solution)) solutions.push_back(std::move(solution));
+  }
+  const bool is_interrupted = solutions.back().status == SolveStatus::interrupted;
+  sort_by_speed(solutions);
   history.write();
+
   const auto part = context.timer.measure("output");
-  write_solution_files(context, level, solution.state);
-  const auto entry = cycle_entry(settings, model, solution);
-  context.result.findings["flutter"] = entry;
-  write_cycle(context, solution);
-  print_cycle(context, entry);
-  context.result.message = solution.status == SolveStatus::converged
-                               ? fmt::format("V_F = {:.6f}, omega = {:.6f}",
-                                             entry["reduced_velocity"].get<double>(), solution.state.omega)
-                               : cycle_advice(settings, solution);
-  return solution.status;
+  write_solution_files(context, level, solutions.front().state);
+  auto points = nlohmann::ordered_json::array();
+  for (const CycleSolution& solution : solutions) {
+    points.push_back(cycle_entry(settings, model, solution));
+    if (points.size() > 1)
+      write_further_solution(context, level, solution.state, flutter_file(static_cast<int>(points.size())));
+  }
+  context.result.findings["flutter"] = points[0];
+  if (settings.flutter.wants_all_roots()) context.result.findings["flutter_points"] = points;
+  write_cycle(context, solutions.front());
+  for (const auto& point : points) print_cycle(context, point);
+
+  const SolveStatus status = is_interrupted ? SolveStatus::interrupted : solutions.front().status;
+  std::string& message = context.result.message;
+  message = status == SolveStatus::converged
+                ? fmt::format("V_F = {:.6f}, omega = {:.6f}", points[0]["reduced_velocity"].get<double>(),
+                              solutions.front().state.omega)
+                : cycle_advice(settings, is_interrupted ? solutions.back() : solutions.front());
+  const auto failed = std::ranges::count_if(
+      solutions, [](const CycleSolution& solution) { return solution.status != SolveStatus::converged; });
+  if (status == SolveStatus::converged && failed > 0)
+    message += fmt::format("; of {} roots above it {} did not converge", solutions.size() - 1, failed);
+  return status;
 }
 
 }  // namespace wingbeat

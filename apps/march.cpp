@@ -171,7 +171,7 @@ MarchStart MarchCase::from_stored(StoredSolution stored) {
 MarchStart MarchCase::begin() {
   std::optional<MarchStart> start;
   if (context_.restart) {
-    StoredSolution stored = read_stored_solution(context_, level_);
+    StoredSolution stored = read_stored_solution(context_, level_, *context_.restart);
     if (stored.time_step || stored.instances() > 1)
       start = from_stored(std::move(stored));
     else

@@ -37,18 +37,7 @@ ResolvedCase read_case(const Comm& comm, const CommandLine& command, const Verb&
   std::string text;
   on_root(comm, [&] { text = read_case_text(command.target); });
   text = comm.broadcast(text);
-  const auto used_sections = [&](const CaseSettings& settings) {
-    return verb.sections_of ? verb.sections_of(settings) : verb.sections;
-  };
-  ResolvedCase resolved =
-      resolve_case(text, command.target, command.overrides, used_sections, "wingbeat " + verb.name);
-  if (!verb.faults) return resolved;
-  const std::vector<std::string> faults = verb.faults(resolved.settings);
-  if (faults.size() == 1) throw InputError(fmt::format("{}: {}", command.target, faults[0]));
-  if (!faults.empty())
-    throw InputError(fmt::format("{} faults in the case:\n  {}: {}", faults.size(), command.target,
-                                 fmt::join(faults, fmt::format("\n  {}: ", command.target))));
-  return resolved;
+  return resolve_for_verb(verb, text, command.target, command.overrides);
 }
 
 void prepare_output(const Comm& comm, const CommandLine& command, const ResolvedCase& resolved, Log& log) {
@@ -59,8 +48,9 @@ void prepare_output(const Comm& comm, const CommandLine& command, const Resolved
 }
 
 // What a run would work on. Making the mesh finds its faults, too.
-void show_plan(const ResolvedCase& resolved, Log& log) {
+void show_plan(const Verb& verb, const ResolvedCase& resolved, Log& log) {
   log.line(resolved.text);
+  if (verb.plan) log.line("# {}", verb.plan(resolved));
   const MeshSettings& mesh = resolved.settings.mesh;
   if (!mesh.airfoil && !mesh.file) return;
   std::visit(
@@ -91,7 +81,7 @@ int execute(const Comm& comm, const CommandLine& command, Result& result, Timer&
   const ResolvedCase resolved = read_case(comm, command, verb);
   Log log(comm.is_root());
   if (command.dry_run) {
-    show_plan(resolved, log);
+    show_plan(verb, resolved, log);
     return exit_converged;
   }
   if (command.restart)
@@ -106,8 +96,10 @@ int execute(const Comm& comm, const CommandLine& command, Result& result, Timer&
                   .sources = resolved.sources,
                   .output = command.output,
                   .restart = command.restart,
+                  .neighbour = std::nullopt,
                   .find_flutter = command.find_flutter,
                   .check = command.check,
+                  .retry_failed = command.retry_failed,
                   .planned_ranks = command.ranks.value_or(comm.size()),
                   .log = log,
                   .timer = timer,
@@ -147,6 +139,22 @@ SolveStatus run_recipe(const Verb& verb, Context& context) {
   if (status != SolveStatus::converged) context.log.warn(result.message);
   finish(context);
   return status;
+}
+
+ResolvedCase resolve_for_verb(const Verb& verb, const std::string& text, const std::string& path,
+                              const std::vector<std::string>& overrides, const std::string& override_place) {
+  const auto used_sections = [&](const CaseSettings& settings) {
+    return verb.sections_of ? verb.sections_of(settings) : verb.sections;
+  };
+  ResolvedCase resolved =
+      resolve_case(text, path, overrides, used_sections, "wingbeat " + verb.name, override_place);
+  if (!verb.faults) return resolved;
+  const std::vector<std::string> faults = verb.faults(resolved.settings);
+  if (faults.size() == 1) throw InputError(fmt::format("{}: {}", path, faults[0]));
+  if (!faults.empty())
+    throw InputError(fmt::format("{} faults in the case:\n  {}: {}", faults.size(), path,
+                                 fmt::join(faults, fmt::format("\n  {}: ", path))));
+  return resolved;
 }
 
 const Verb& find_verb(const std::string& name) {

@@ -16,6 +16,12 @@ enum ExitCode {
 
 const Verb& find_verb(const std::string& name);  // one that there is
 
+// The case of a text for a verb. Throws InputError with all faults; those of overrides are blamed on their
+// place.
+ResolvedCase resolve_for_verb(const Verb& verb, const std::string& text, const std::string& path,
+                              const std::vector<std::string>& overrides,
+                              const std::string& override_place = "command line");
+
 // Runs a verb's recipe, and writes its result.json with what it took. Collective.
 SolveStatus run_recipe(const Verb& verb, Context& context);
 

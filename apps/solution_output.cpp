@@ -86,6 +86,21 @@ Solution<2> gathered_solution(const Context& context, const FlowLevel<2>& level,
   return solution;
 }
 
+// The instances of a period, or of steady flow, and what a restart needs besides. Collective.
+Solution<2> periodic_solution(const Context& context, const FlowLevel<2>& level,
+                              const AeroelasticState& state) {
+  const std::size_t instances = state.y.size() / 4;
+  const TimeSpectral time(static_cast<int>(instances - 1) / 2);
+  std::vector<double> times(instances, 0.0);
+  if (state.omega > 0.0)
+    for (std::size_t i = 0; i < instances; ++i) times[i] = time.phase(static_cast<int>(i)) / state.omega;
+  Solution<2> solution = gathered_solution(context, level, state.w, state.y, times);
+  solution.data["omega"] = {state.omega};
+  solution.data["freestream_parameter"] = {state.r};
+  solution.data["reduced_velocity"] = {section_kinematics(context.settings).reduced_velocity(state.r)};
+  return solution;
+}
+
 }  // namespace
 
 SurfaceTable::SurfaceTable()
@@ -104,20 +119,17 @@ void SurfaceTable::write(const Context& context) const {
   on_root(context.comm, [&] { table_.write(context.output / "surface.csv"); });
 }
 
+void write_further_solution(const Context& context, const FlowLevel<2>& level, const AeroelasticState& state,
+                            const std::string& name) {
+  const Solution<2> solution = periodic_solution(context, level, state);
+  on_root(context.comm, [&] { write_solution<2>(context.output / name, level.mesh, solution); });
+}
+
 void write_solution_files(const Context& context, const FlowLevel<2>& level, const AeroelasticState& state) {
+  write_further_solution(context, level, state, "solution.cgns");
+  on_root(context.comm, [&] { near_wall_nodes(level.mesh).write(context.output / "mesh.csv"); });
   const std::size_t instances = state.y.size() / 4, count = level.domain.state_count();
   const TimeSpectral time(static_cast<int>(instances - 1) / 2);
-  std::vector<double> times(instances, 0.0);
-  if (state.omega > 0.0)
-    for (std::size_t i = 0; i < instances; ++i) times[i] = time.phase(static_cast<int>(i)) / state.omega;
-  Solution<2> solution = gathered_solution(context, level, state.w, state.y, times);
-  solution.data["omega"] = {state.omega};
-  solution.data["freestream_parameter"] = {state.r};
-  solution.data["reduced_velocity"] = {section_kinematics(context.settings).reduced_velocity(state.r)};
-  on_root(context.comm, [&] {
-    write_solution<2>(context.output / "solution.cgns", level.mesh, solution);
-    near_wall_nodes(level.mesh).write(context.output / "mesh.csv");
-  });
   SurfaceTable surface;
   for (std::size_t i = 0; i < instances; ++i)
     surface.add(context, level, time.phase(static_cast<int>(i)),
@@ -147,11 +159,12 @@ void write_time_levels(const Context& context, const FlowLevel<2>& level, const 
   });
 }
 
-StoredSolution read_stored_solution(const Context& context, const FlowLevel<2>& level) {
+StoredSolution read_stored_solution(const Context& context, const FlowLevel<2>& level,
+                                    const std::filesystem::path& file) {
   std::vector<double> whole, data;
   double count = 0.0;
   on_root(context.comm, [&] {
-    const Solution<2> solution = read_solution<2>(*context.restart, level.mesh);
+    const Solution<2> solution = read_solution<2>(file, level.mesh);
     const int held = static_cast<int>(solution.instances.size());
     count = held;
     for (const auto& instance : solution.instances)
@@ -161,43 +174,45 @@ StoredSolution read_stored_solution(const Context& context, const FlowLevel<2>& 
             const auto field = std::find_if(zone.fields.begin(), zone.fields.end(),
                                             [&](const SolutionField& f) { return f.name == name; });
             if (field == zone.fields.end())
-              throw InputError(fmt::format("{}: no field {}", context.restart->string(), name));
+              throw InputError(fmt::format("{}: no field {}", file.string(), name));
             whole.push_back(field->values[c]);
           }
     const auto value = [&](const char* name) {
       const auto found = solution.data.find(name);
       if (found == solution.data.end())
-        throw InputError(fmt::format("{}: no restart data \"{}\"; it was not written by wingbeat",
-                                     context.restart->string(), name));
+        throw InputError(
+            fmt::format("{}: no restart data \"{}\"; it was not written by wingbeat", file.string(), name));
       return found->second;
     };
     data = value("y");
     data.push_back(value("omega")[0]);
     data.push_back(value("freestream_parameter")[0]);
     const bool is_march = solution.data.contains("time_step");
+    data.push_back(value("mach")[0]);
     data.push_back(is_march ? value("time_step")[0] : 0.0);
     const std::vector<double> rest = is_march ? value("rest") : std::vector<double>(4, 0.0);
     data.insert(data.begin(), rest.begin(), rest.end());
-    if (data.size() != static_cast<std::size_t>(4 * held + 7))
-      throw InputError(fmt::format("{}: its structural state does not fit", context.restart->string()));
+    if (data.size() != static_cast<std::size_t>(4 * held + 8))
+      throw InputError(fmt::format("{}: its structural state does not fit", file.string()));
   });
   context.comm.broadcast(count);
   const int instances = static_cast<int>(count);
-  data.resize(static_cast<std::size_t>(4 * instances + 7));
+  data.resize(static_cast<std::size_t>(4 * instances + 8));
   context.comm.broadcast(data);
   StoredSolution stored;
   stored.state.w = scatter_from_root(context.comm, level.local.global_cell, whole, instances, n);
   if (data.back() > 0.0) stored.time_step = data.back();
   stored.rest_y.assign(data.begin(), data.begin() + 4);
-  stored.state.r = data[data.size() - 2];
-  stored.state.omega = data[data.size() - 3];
-  stored.state.y.assign(data.begin() + 4, data.end() - 3);
+  stored.mach = data[data.size() - 2];
+  stored.state.r = data[data.size() - 3];
+  stored.state.omega = data[data.size() - 4];
+  stored.state.y.assign(data.begin() + 4, data.end() - 4);
   return stored;
 }
 
 AeroelasticState read_restart(const Context& context, const FlowLevel<2>& level,
                               const std::vector<int>& allowed_instances) {
-  StoredSolution stored = read_stored_solution(context, level);
+  StoredSolution stored = read_stored_solution(context, level, *context.restart);
   if (stored.time_step)
     throw InputError(fmt::format("{}: holds time levels of a march; only wingbeat march goes on from these",
                                  context.restart->string()));

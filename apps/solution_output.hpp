@@ -1,7 +1,9 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "apps/context.hpp"
@@ -15,6 +17,9 @@ namespace wingbeat {
 // Writes solution.cgns (all instances, moved meshes, the restart data), surface.csv and mesh.csv into
 // the case's folder. Steady flow is one instance. Collective.
 void write_solution_files(const Context& context, const FlowLevel<2>& level, const AeroelasticState& state);
+// The same in a CGNS file of another name alone. Collective.
+void write_further_solution(const Context& context, const FlowLevel<2>& level, const AeroelasticState& state,
+                            const std::string& name);
 
 // Time levels of a march, newest first, dtau apart. Instances of solution.cgns are in the same order, their
 // time counts back from the end of the march.
@@ -49,9 +54,11 @@ struct StoredSolution {
   AeroelasticState state;
   std::optional<double> time_step;  // of a march, whose levels then stand in place of instances
   std::vector<double> rest_y;       // of a march
+  double mach = 0.0;
   int instances() const { return static_cast<int>(state.y.size() / 4); }
 };
-StoredSolution read_stored_solution(const Context& context, const FlowLevel<2>& level);
+StoredSolution read_stored_solution(const Context& context, const FlowLevel<2>& level,
+                                    const std::filesystem::path& file);
 
 // The state that solution.cgns of an earlier run on the same mesh holds. Throws InputError when it is of
 // another mesh or holds a number of instances that is not among those allowed. Collective.

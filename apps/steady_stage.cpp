@@ -6,6 +6,7 @@
 #include "apps/advice.hpp"
 #include "apps/flow_cycles.hpp"
 #include "apps/flow_setup.hpp"
+#include "apps/neighbour.hpp"
 #include "apps/solution_output.hpp"
 #include "core/io/progress.hpp"
 
@@ -102,6 +103,7 @@ SolveStatus run_steady_stage(Context& context, FlowLevels<2>& levels, History& h
   const MotionState motion = at_rest(context.settings);
   const FlowLevelRange<2> all(levels);
   SteadyOutcome solved;
+  if (context.neighbour && level.w.empty()) level.w = neighbouring_flow(context, level);
   if (solver.flow_solver() == "newton") {
     solved = solve_by_newton(context, all, motion, history);
     context.result.message = steady_advice(solved.status, solver);

@@ -8,7 +8,7 @@
 namespace wingbeat {
 
 SubRun::SubRun(Context& outer, const Comm& comm, const std::string& command, const CaseSettings& settings,
-               std::filesystem::path output)
+               std::filesystem::path output, SubRunOptions options)
     : settings_(settings),
       result_{.command = command, .ranks = comm.size(), .version = outer.result.version},
       stop_(comm, outer.stop),
@@ -17,10 +17,12 @@ SubRun::SubRun(Context& outer, const Comm& comm, const std::string& command, con
                .sources = outer.sources,
                .output = std::move(output),
                .restart = std::nullopt,
+               .neighbour = std::move(options.neighbour),
                .find_flutter = false,
                .check = false,
+               .retry_failed = false,
                .planned_ranks = comm.size(),
-               .log = outer.log,
+               .log = options.log ? *options.log : outer.log,
                .timer = timer_,
                .result = result_,
                .stop = stop_} {}

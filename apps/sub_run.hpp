@@ -1,11 +1,18 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "apps/context.hpp"
 
 namespace wingbeat {
+
+// What a run within a run may have of its own besides.
+struct SubRunOptions {
+  Log* log = nullptr;  // none: the outer run's
+  std::optional<Neighbour> neighbour{};
+};
 
 // A run within a run: a context of its own, with its own settings, results, times and folder, on ranks of the
 // outer one.
@@ -13,7 +20,7 @@ class SubRun {
  public:
   // `outer` is kept by reference. Its restart is not passed on.
   SubRun(Context& outer, const Comm& comm, const std::string& command, const CaseSettings& settings,
-         std::filesystem::path output);
+         std::filesystem::path output, SubRunOptions options = {});
   SubRun(const SubRun&) = delete;
   SubRun& operator=(const SubRun&) = delete;
 

@@ -20,6 +20,7 @@ SolveStatus run_march(Context& context);
 SolveStatus run_pk(Context& context);
 SolveStatus run_gradient(Context& context);
 SolveStatus run_optimize(Context& context);
+SolveStatus run_sweep(Context& context);
 SolveStatus run_mesh(Context& context);
 SolveStatus run_partition(Context& context);
 
@@ -28,8 +29,8 @@ std::vector<std::string> pitch_faults(const CaseSettings& settings);
 std::vector<std::string> lco_faults(const CaseSettings& settings);
 std::vector<std::string> pk_faults(const CaseSettings& settings);
 std::vector<std::string> gradient_faults(const CaseSettings& settings);
-
 std::vector<std::string> optimize_faults(const CaseSettings& settings);
+std::vector<std::string> sweep_faults(const CaseSettings& settings);
 
 // The sections that pk needs: those of mesh and flow unless Q(k) is read from a file.
 std::vector<std::string> pk_sections(const CaseSettings& settings);
@@ -37,6 +38,8 @@ std::vector<std::string> pk_sections(const CaseSettings& settings);
 std::vector<std::string> gradient_sections(const CaseSettings& settings);
 // The sections that an optimisation needs: those of the outputs it names.
 std::vector<std::string> optimize_sections(const CaseSettings& settings);
+// What a sweep would do, in a line; throws InputError where a point's case has faults.
+std::string sweep_plan(const ResolvedCase& resolved);
 
 // A verb of the command line that works on a case.
 struct Verb {
@@ -47,6 +50,7 @@ struct Verb {
   bool can_restart = false;
   std::vector<std::string> (*faults)(const CaseSettings&) = nullptr;
   std::vector<std::string> (*sections_of)(const CaseSettings&) = nullptr;  // where the case decides
+  std::string (*plan)(const ResolvedCase&) = nullptr;                      // what --dry-run says more
 };
 
 std::span<const Verb> verbs();

@@ -31,14 +31,14 @@ const FlutterRoot* lowest_destabilising(const std::vector<FlutterRoot>& roots) {
 // Polishes, with Q of a section, the destabilising roots that may turn out to be the lowest.
 template <int Dim>
 void polish_lowest(const StructureModel& model, LinearizedSection<Dim>& section,
-                   const AerodynamicTable& table, double tolerance, std::vector<FlutterRoot>& roots) {
-  constexpr double margin = 1.2;
-  const double limit = margin * lowest_destabilising(roots)->reduced_velocity;
+                   const AerodynamicTable& table, const LinearFlutterOptions& options,
+                   std::vector<FlutterRoot>& roots) {
+  const double limit = options.polish_margin * lowest_destabilising(roots)->reduced_velocity;
   const auto exact = [&](double k) { return section.aerodynamic_matrix(k); };
   // The lowest last: its flow is then at hand.
   for (auto root = roots.rbegin(); root != roots.rend(); ++root)
     if (root->is_destabilising() && root->reduced_velocity <= limit)
-      *root = polish_flutter_root(model, exact, table, *root, {.tolerance = tolerance});
+      *root = polish_flutter_root(model, exact, table, *root, {.tolerance = 10.0 * options.tolerance});
   std::sort(roots.begin(), roots.end(), [](const FlutterRoot& a, const FlutterRoot& b) {
     return a.reduced_velocity < b.reduced_velocity;
   });
@@ -143,12 +143,12 @@ LinearFlutterSolution<Dim> solve_linear_flutter(FlowLevelRange<Dim> levels, cons
     for (int repeat = 0; repeat < max_equilibria; ++repeat) {
       solution.section = std::make_unique<LinearizedSection<Dim>>(
           *level, kinematics, section_at_rest<Dim>(*level, model, kinematics, speed, options),
-          options.tolerance, std::function<bool()>{}, options.newton.gmres);
+          options.tolerance, options.is_stopped, options.newton.gmres);
       if (level == solved.front()) {
         table = sampled_matrix<Dim>(*solution.section, options);
         solution.flutter.roots = scan_flutter_roots(model, *table);
       } else {
-        polish_lowest(model, *solution.section, *table, 10.0 * options.tolerance, solution.flutter.roots);
+        polish_lowest(model, *solution.section, *table, options, solution.flutter.roots);
       }
       const FlutterRoot* lowest = lowest_destabilising(solution.flutter.roots);
       if (!lowest) return solution;
@@ -158,7 +158,7 @@ LinearFlutterSolution<Dim> solve_linear_flutter(FlowLevelRange<Dim> levels, cons
       if (!deflects || is_settled) break;
     }
   if (solved.size() == 1)
-    polish_lowest(model, *solution.section, *table, 10.0 * options.tolerance, solution.flutter.roots);
+    polish_lowest(model, *solution.section, *table, options, solution.flutter.roots);
   solution.flutter.root = *lowest_destabilising(solution.flutter.roots);
   return solution;
 }

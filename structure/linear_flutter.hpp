@@ -50,6 +50,8 @@ struct LinearFlutterOptions {
   double tolerance = 1e-8;  // of the linear solves behind Q
   NewtonOptions newton{};   // of static equilibrium; its lengths of GMRES hold behind Q too
   AeroelasticTolerances tolerances{};
+  // Roots up to this many times the lowest speed are polished, for the lowest may change; 0: none is.
+  double polish_margin = 1.2;
   double settled_speed = 1e-4;         // relative change of V that ends the repetition of equilibrium and root
   std::function<bool()> is_stopped{};  // collective; polled between linear solves
 };

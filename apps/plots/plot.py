@@ -20,6 +20,7 @@ Each figure is drawn if its file is there:
     optimization.csv        iteration, objective, outputs, errors, design          course of an optimisation
     evaluations.jsonl       a line a design: outputs, flutter roots                roots over the iterations
     baseline/, optimum/     airfoil.dat, runs of steady, lco, pk                   both sections on one figure
+    sweep.csv               parameters, speeds or loads, branch, status           a sweep, curve or contours
     mesh.csv                zone, i, j, x, y                                      mesh near the section
 pitch_rate is in radians; rates and times are in units of omega_alpha.
 result.json and case.toml add flutter points, Mach number and mass ratio.
@@ -58,6 +59,8 @@ try:
     import response
     import speed_convergence
     import surface_sensitivity
+    import sweep_contour
+    import sweep_curve
     from read import BadTable, Skipped
     from report import write_comparison_report, write_report
     from runs import runs_in
@@ -68,8 +71,9 @@ except ModuleNotFoundError as missing:
 
 OPTIMIZATION = [optimization_history, optimization_section, optimization_pressure, optimization_branches,
                 optimization_matrix, optimization_pk, optimization_roots, optimization_cost]
-FIGURES = [*OPTIMIZATION, branch, phase_portrait, march, response, pk, aerodynamic_matrix, loops, pressure, contours,
-           gradient_bars, gradient_bumps, surface_sensitivity, gradient_steps, speed_convergence, convergence, mesh]
+FIGURES = [*OPTIMIZATION, sweep_curve, sweep_contour, branch, phase_portrait, march, response, pk, aerodynamic_matrix,
+           loops, pressure, contours, gradient_bars, gradient_bumps, surface_sensitivity, gradient_steps,
+           speed_convergence, convergence, mesh]
 COMPARISONS = [branch, phase_portrait, march, pressure_compare, pk, aerodynamic_matrix]
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 
-TEXTS = ("stage", "zone", "block", "mode", "status", "name")  # columns that may hold texts
+TEXTS = ("stage", "zone", "block", "mode", "status", "name", "reason", "start")  # columns that may hold texts
 
 
 class BadTable(Exception):

@@ -92,14 +92,14 @@ CaseFile::~CaseFile() = default;
 CaseFile::CaseFile(CaseFile&&) noexcept = default;
 CaseFile& CaseFile::operator=(CaseFile&&) noexcept = default;
 
-void CaseFile::add_override(const std::string& assignment) {
+void CaseFile::add_override(const std::string& assignment, const std::string& place) {
   const auto equals = assignment.find('=');
   const auto dot = assignment.find('.');
   const bool well_formed = equals != std::string::npos && dot != std::string::npos && dot > 0 &&
                            dot + 1 < equals && assignment.find('.', dot + 1) >= equals;
   if (!well_formed) {
     data_->early_faults.push_back(
-        fmt::format("command line: {}: expected section.key=value, such as flow.mach=0.8", assignment));
+        fmt::format("{}: {}: expected section.key=value, such as flow.mach=0.8", place, assignment));
     return;
   }
   const std::string section = assignment.substr(0, dot);
@@ -115,11 +115,10 @@ void CaseFile::add_override(const std::string& assignment) {
   if (table->size() != 1) *table = toml::table{{"value", value}};
   // Any line of a text comes before any override.
   constexpr std::size_t after_text = std::numeric_limits<toml::source_index>::max();
-  data_->entries[{section, key}] = {"command line", table->get("value"), true,
-                                    after_text + data_->overrides.size()};
+  data_->entries[{section, key}] = {place, table->get("value"), true, after_text + data_->overrides.size()};
   if (std::ranges::find(data_->sections, section, &std::pair<std::string, std::string>::first) ==
       data_->sections.end())
-    data_->sections.emplace_back(section, "command line");
+    data_->sections.emplace_back(section, place);
   data_->overrides.push_back(std::move(table));
 }
 

@@ -22,8 +22,9 @@ class CaseFile {
   CaseFile& operator=(CaseFile&&) noexcept;
 
   // Adds a command-line override `section.key=value`, stronger than the text and than earlier
-  // overrides. The value is read as TOML and, failing that, as a string. Faults are kept for apply().
-  void add_override(const std::string& assignment);
+  // overrides. The value is read as TOML and, failing that, as a string. Faults are kept for apply() and
+  // blamed on `place`.
+  void add_override(const std::string& assignment, const std::string& place = "command line");
 
   // Fills the settings. `used_sections` are those whose required keys must be present; `reader`
   // names who needs them ("wingbeat flutter"). Relative paths become absolute: those of the text

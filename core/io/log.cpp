@@ -22,6 +22,8 @@ bool stdout_is_terminal() {
 
 Log::Log(bool speaks) : speaks_(speaks), is_live_(speaks && stdout_is_terminal()) {}
 
+Log::Log(const std::filesystem::path& file) : speaks_(false), is_live_(false), file_(file, std::ios::trunc) {}
+
 Log::~Log() { clear_status(); }
 
 void Log::copy_to(const std::filesystem::path& file) {
@@ -29,11 +31,12 @@ void Log::copy_to(const std::filesystem::path& file) {
 }
 
 void Log::line(std::string_view text) {
-  if (!speaks_) return;
-  clear_status();
-  fmt::print("{}\n", text);
-  // A batch log is read while the run goes on.
-  std::fflush(stdout);
+  if (speaks_) {
+    clear_status();
+    fmt::print("{}\n", text);
+    // A batch log is read while the run goes on.
+    std::fflush(stdout);
+  }
   if (file_.is_open()) file_ << text << std::endl;
 }
 
@@ -42,9 +45,10 @@ void Log::note(std::string_view text) {
 }
 
 void Log::warn(std::string_view text) {
-  if (!speaks_) return;
-  clear_status();
-  fmt::print(stderr, "warning: {}\n", text);
+  if (speaks_) {
+    clear_status();
+    fmt::print(stderr, "warning: {}\n", text);
+  }
   if (file_.is_open()) file_ << "warning: " << text << std::endl;
 }
 

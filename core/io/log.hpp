@@ -15,6 +15,8 @@ namespace wingbeat {
 class Log {
  public:
   explicit Log(bool speaks);
+  // Of a run within a run: a file alone is written, which is replaced.
+  explicit Log(const std::filesystem::path& file);
   ~Log();
   Log(const Log&) = delete;
   Log& operator=(const Log&) = delete;
@@ -25,7 +27,7 @@ class Log {
   void line(std::string_view text);
   template <class... Args>
   void line(fmt::format_string<Args...> format, Args&&... args) {
-    if (speaks_) line(std::string_view(fmt::format(format, std::forward<Args>(args)...)));
+    if (speaks_ || file_.is_open()) line(std::string_view(fmt::format(format, std::forward<Args>(args)...)));
   }
   // In the file alone: what few want to read.
   void note(std::string_view text);
