@@ -81,7 +81,13 @@ CycleStart CycleSolver::restart(AeroelasticState state) {
 }
 
 CycleStart CycleSolver::moved(AeroelasticState cycle, double energy) {
-  const AeroelasticState rest{mean_instance(cycle.w, time_), mean_instance(cycle.y, time_), 0.0, cycle.r};
+  AeroelasticState rest{mean_instance(cycle.w, time_), mean_instance(cycle.y, time_), 0.0, cycle.r};
+  const std::vector<MotionState> unmoved{{section_kinematics(context_.settings).mean_pitch, 0.0, 0.0}};
+  if (!is_deflected(level_.steady.loads(level_.w, unmoved)[0])) {
+    for (std::size_t i = 0; i < cycle.w.size(); ++i)
+      cycle.w[i] += level_.w[i % level_.w.size()] - rest.w[i % level_.w.size()];
+    rest.w = level_.w;
+  }
   return grown(std::move(cycle), rest, energy);
 }
 

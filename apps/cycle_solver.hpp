@@ -62,7 +62,7 @@ class CycleSolver {
   CycleStart linear_start(LinearFlutterSolution<2>& linear, const FlutterRoot& root,
                           const FlowLevel<2>& linearized, double energy);
   CycleStart restart(AeroelasticState state);
-  // A cycle of a case like this one.
+  // A cycle of a case like this one, about the level's steady flow where the section rests undeflected.
   CycleStart moved(AeroelasticState cycle, double energy);
   // A solved cycle blown up or down, about the state of rest, to another energy.
   CycleStart grown(AeroelasticState state, const AeroelasticState& rest, double energy);

@@ -18,14 +18,12 @@ CycleApproach approach_cycle(Context& context, FlowLevels<2>& levels, const Stru
     if (state.y.size() > 4) return {SolveStatus::converged, solver.restart(std::move(state)), {}};
     level.w = std::move(state.w);
   }
+  const SolveStatus steady = run_steady_stage(context, levels, history, true);
+  if (steady != SolveStatus::converged) return {steady, std::nullopt, {}};
+
   std::vector<CycleStart> starts;
   if (context.neighbour) starts = neighbouring_starts(context, levels, model, solver, energy);
-  if (starts.empty()) {
-    const SolveStatus steady = run_steady_stage(context, levels, history, true);
-    if (steady != SolveStatus::converged) return {steady, std::nullopt, {}};
-
-    starts = flutter_starts(context, levels, model, solver, energy);
-  }
+  if (starts.empty()) starts = flutter_starts(context, levels, model, solver, energy);
   if (starts.empty()) return {SolveStatus::stalled, std::nullopt, {}};
   CycleApproach approach{SolveStatus::converged, std::move(starts.front()), {}};
   approach.further.assign(std::make_move_iterator(starts.begin() + 1), std::make_move_iterator(starts.end()));

@@ -6,7 +6,6 @@
 #include "apps/flow_setup.hpp"
 #include "apps/linear_flutter_output.hpp"
 #include "apps/neighbour.hpp"
-#include "apps/steady_stage.hpp"
 
 namespace wingbeat {
 namespace {
@@ -65,11 +64,6 @@ std::vector<CycleStart> neighbouring_starts(Context& context, FlowLevels<2>& lev
   const std::vector<AeroelasticState> cycles = neighbouring_cycles(context, *levels.back());
   if (cycles.empty()) return {};
   const FlowLevelRange<2> coarsest = FlowLevelRange<2>(levels).first(1);
-  {
-    const auto part = context.timer.measure("steady");
-    const auto steady = solve_steady<2>(coarsest, at_rest(settings), steady_options(settings.solver));
-    if (steady.status != SolveStatus::converged) return {};
-  }
   const auto linear = linear_flutter(context, coarsest, model, sketched(linear_flutter_options(context)));
   std::vector<CycleStart> starts;
   for (const FlutterRoot* root : wanted_roots(settings, linear.flutter)) {

@@ -11,7 +11,7 @@
 
 #include "core/io/error.hpp"
 #include "core/io/file.hpp"
-#include "core/io/toml_value.hpp"
+#include "core/io/settings.hpp"
 
 namespace wingbeat {
 namespace {
@@ -42,6 +42,10 @@ std::vector<std::string> listed_values(const std::string& text) {
   if (!array || array->empty()) throw InputError("its list is empty; give values, such as [0.7, 0.8]");
   std::vector<std::string> values;
   for (const toml::node& node : *array) {
+    if (const auto* number = node.as_floating_point()) {
+      values.push_back(toml_text(number->get()));
+      continue;
+    }
     std::ostringstream value;
     node.visit([&](const auto& held) { value << held; });
     values.push_back(value.str());

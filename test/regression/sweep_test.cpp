@@ -79,6 +79,24 @@ TEST_F(Sweep, GivesTheSameTableOnItsOwnInGroupsAndAfterAKill) {
   EXPECT_EQ(lines("killed"), 5u);
 }
 
+// From the plunge-dominated root, whose speed dips and then rises steeply, to the pitch-dominated one between
+// two points 0.01 in Mach number apart, which refinement adds.
+TEST_F(Sweep, ShowsBothBranchesOfTheTransonicDipAndTheSwitchBetweenThem) {
+  const ProgramRun done =
+      run(small("out", {"sweep.parameters=[\"flow.mach = 0.78 to 0.88 step 0.02\"]", "sweep.refine=3"}));
+  ASSERT_EQ(done.exit_code, 0) << done.errors;
+  EXPECT_EQ(result("out")["sweep"]["done"], 9);
+  const Row mach = column("out", "flow.mach"), branch = column("out", "branch"),
+            omega = column("out", "frequency_ratio");
+  ASSERT_EQ(branch.size(), 9u);
+  for (std::size_t i = 0; i < branch.size(); ++i) {
+    const bool is_before = std::stod(mach[i]) < 0.825;
+    EXPECT_EQ(branch[i], is_before ? "1" : "2") << mach[i];
+    EXPECT_EQ(std::stod(omega[i]) < 0.9, is_before) << mach[i];
+  }
+  EXPECT_NE(std::ranges::find(mach, "0.83"), mach.end()) << "the switch is refined";
+}
+
 TEST_F(Sweep, StartsPointsFromTheirNeighbours) {
   ASSERT_EQ(run(small("out", {four})).exit_code, 0);
   const Row starts = column("out", "start");
