@@ -103,6 +103,7 @@ def results_of(folder):
     branch = [(entry.get("point", n), entry) for n, entry in enumerate(cycles, 1)]
     cycle_table = entry_table(BRANCH_COLUMNS, branch, "point")
     return "\n".join([section("Results", content), optimization_section(folder),
+                      section("Points of the sweep", csv_table(folder / "sweep.csv")),
                       section("Branch of limit cycles", cycle_table),
                       gradient_section(folder)])
 

@@ -36,8 +36,9 @@ CsvTable::Cell cell(const SweepLine& row, const std::string& name) {
 
 void check_head(const SweepLine& found, const std::string& path, const SweepLine& head) {
   const std::string remedy = "choose another --output, or remove the file to begin anew";
-  if (!found.is_object() || !found.contains("case"))
-    throw InputError(fmt::format("{}:1: is not the record of a sweep; {}", path, remedy));
+  const bool is_head =
+      found.is_object() && found.contains("case") && found.contains("verb") && found.contains("parameters");
+  if (!is_head) throw InputError(fmt::format("{}:1: is not the record of a sweep; {}", path, remedy));
   for (const char* name : {"verb", "parameters"})
     if (found[name] != head[name])
       throw InputError(fmt::format("{}: is of a sweep of {} {}, this is one of {} {}; {}", path,

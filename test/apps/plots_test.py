@@ -16,6 +16,7 @@ sys.dont_write_bytecode = True
 from plots_folder import HAS_H5PY, Folder, png_size, write_solution  # noqa: E402
 from plots_gradient import GradientContents, GradientFolders  # noqa: E402, F401
 from plots_optimization import OptimizationContents, OptimizationFigures  # noqa: E402, F401
+from plots_sweep import SweepFigures  # noqa: E402, F401
 
 SKIPPED = 77
 SYSTEM_PYTHON = "/usr/bin/python3"
