@@ -25,10 +25,16 @@ class AtomicFile {
 
   const std::filesystem::path& temporary() const { return temporary_; }
   void commit();  // throws InputError when the file cannot be moved
+  // The same for what a lost machine must not take along: all of it is on the disk before it gets its name,
+  // and the file that had this name stays as `previous`. At every moment the name stands for a whole file.
+  void commit_keeping(const std::filesystem::path& previous);
 
  private:
   std::filesystem::path path_;
   std::filesystem::path temporary_;
 };
+
+// Removes from a folder what an AtomicFile left that never came to its commit(): its process was killed.
+void remove_unfinished(const std::filesystem::path& folder);
 
 }  // namespace wingbeat

@@ -35,19 +35,25 @@ template <int Dim>
 struct Solution {
   std::vector<SolutionInstance<Dim>> instances;     // times increase
   std::map<std::string, std::vector<double>> data;  // none of them empty
+  std::map<std::string, std::string> text;          // likewise; names differ from those of `data`
 };
 
 // Writes mesh and solution as one CGNS (HDF5) file that viewers show as a time series: each
 // instance is a step of BaseIterativeData with its FlowSolution and, if the nodes move, its
-// GridCoordinates; `data` goes to UserDefinedData "RestartData". All numbers are double: read_solution
-// gives them back bit for bit, and read_cgns the mesh. The file appears only when it is complete.
-// Throws InputError when it cannot be written.
+// GridCoordinates; `data` and `text` go to UserDefinedData "RestartData", with the format's number and a
+// sum over everything by which damage is found. All numbers are double: read_solution gives them back bit for
+// bit, and read_cgns the mesh. The file appears only when it is complete and on the disk; the one before it
+// stays as previous_solution(path). Throws InputError when it cannot be written.
 template <int Dim>
 void write_solution(const std::filesystem::path& path, const MultiblockMesh<Dim>& mesh,
                     const Solution<Dim>& solution);
 
+// "solution.previous.cgns" beside "solution.cgns".
+std::filesystem::path previous_solution(const std::filesystem::path& path);
+
 // Reads what write_solution wrote for this mesh. Throws InputError when the file cannot be read,
-// holds no solution, or one of another mesh (zones, cells).
+// holds no solution, or one of another mesh (zones, cells), is damaged, or is of a format that this version
+// does not know.
 template <int Dim>
 Solution<Dim> read_solution(const std::filesystem::path& path, const MultiblockMesh<Dim>& mesh);
 

@@ -128,9 +128,10 @@ std::vector<double> read_times(const CgnsFile& file) {
   return times;
 }
 
-std::map<std::string, std::vector<double>> read_restart_data(const CgnsFile& file) {
-  std::map<std::string, std::vector<double>> data;
-  if (cg_goto(file.number(), 1, restart_node, 0, "end") != CG_OK) return data;
+// `data` and `text` of a solution, and what the file says its sum is (empty in one of an earlier version).
+template <int Dim>
+std::string read_restart_data(const CgnsFile& file, Solution<Dim>& solution) {
+  if (cg_goto(file.number(), 1, restart_node, 0, "end") != CG_OK) return "";
   int count = 0;
   file.check(cg_narrays(&count), restart_node);
   for (int a = 1; a <= count; ++a) {
@@ -139,9 +140,24 @@ std::map<std::string, std::vector<double>> read_restart_data(const CgnsFile& fil
     int dimension = 0;
     std::array<cgsize_t, 12> size{};
     file.check(cg_array_info(a, name.data(), &type, &dimension, size.data()), restart_node);
-    data[name.data()] = read_array(file, name.data(), restart_node);
+    if (type == CGNS_ENUMV(Character)) {
+      std::string text(static_cast<std::size_t>(size[0]), '\0');
+      file.check(cg_array_read(a, text.data()), restart_node);
+      solution.text[name.data()] = std::move(text);
+    } else {
+      solution.data[name.data()] = read_array(file, name.data(), restart_node);
+    }
   }
-  return data;
+  if (const auto found = solution.data.extract(format_name)) {
+    const double number = found.mapped().empty() ? 0.0 : found.mapped()[0];
+    if (number != format)
+      file.refuse(
+          fmt::format("its format has the number {}, this version reads {}: continue with the version "
+                      "that wrote it, or compute it anew",
+                      number, format));
+  }
+  const auto sum = solution.text.extract(sum_name);
+  return sum ? sum.mapped() : "";
 }
 
 // Whether a zone has coordinates of its own for each step.
@@ -179,7 +195,7 @@ Solution<Dim> read_solution(const std::filesystem::path& path, const MultiblockM
 
   Solution<Dim> solution;
   for (double time : read_times(file)) solution.instances.push_back({time, {}});
-  solution.data = read_restart_data(file);
+  const std::string sum = read_restart_data(file, solution);
   for (const Zone<Dim>& zone : mesh.zones) {
     const int number = find_zone(file, zone);
     const bool moving = has_grid_pointers(file, number, zone.name);
@@ -190,6 +206,9 @@ Solution<Dim> read_solution(const std::filesystem::path& path, const MultiblockM
       solution.instances[n].zones.push_back(std::move(now));
     }
   }
+  if (!sum.empty() && sum != sum_of(solution))
+    file.refuse(fmt::format("is damaged: its numbers are not those that were written; take {}",
+                            previous_solution(path.filename()).string()));
   return solution;
 }
 

@@ -39,9 +39,13 @@ void check_shape(const MultiblockMesh<Dim>& mesh, const Solution<Dim>& solution)
              "all zones of all instances have all their nodes, or none has any");
     }
   }
+  const auto is_name = [](const std::string& name) {
+    return !name.empty() && name.size() <= name_length && name != format_name && name != sum_name;
+  };
   for (const auto& [name, values] : solution.data)
-    ensure(!values.empty() && !name.empty() && name.size() <= name_length,
-           "restart data has a name and values");
+    ensure(!values.empty() && is_name(name), "restart data has a name and values");
+  for (const auto& [name, text] : solution.text)
+    ensure(!text.empty() && is_name(name) && !solution.data.contains(name), "restart text has a name");
 }
 
 template <int Dim>
@@ -73,16 +77,25 @@ void write_times(const CgnsFile& file, int base, std::span<const double> times) 
   file.check(cg_array_write("TimeValues", CGNS_ENUMV(RealDouble), 1, &count, times.data()), "times");
 }
 
-void write_restart_data(const CgnsFile& file, int base,
-                        const std::map<std::string, std::vector<double>>& data) {
-  if (data.empty()) return;
+void write_text(const CgnsFile& file, const std::string& name, const std::string& text) {
+  const auto length = static_cast<cgsize_t>(text.size());
+  file.check(cg_array_write(name.c_str(), CGNS_ENUMV(Character), 1, &length, text.data()), name);
+}
+
+void write_values(const CgnsFile& file, const std::string& name, std::span<const double> values) {
+  const auto count = static_cast<cgsize_t>(values.size());
+  file.check(cg_array_write(name.c_str(), CGNS_ENUMV(RealDouble), 1, &count, values.data()), name);
+}
+
+template <int Dim>
+void write_restart_data(const CgnsFile& file, int base, const Solution<Dim>& solution) {
   file.check(cg_goto(file.number(), base, "end"), restart_node);
   file.check(cg_user_data_write(restart_node), restart_node);
   file.check(cg_goto(file.number(), base, restart_node, 0, "end"), restart_node);
-  for (const auto& [name, values] : data) {
-    const auto count = static_cast<cgsize_t>(values.size());
-    file.check(cg_array_write(name.c_str(), CGNS_ENUMV(RealDouble), 1, &count, values.data()), name);
-  }
+  write_values(file, format_name, {&format, 1});
+  write_text(file, sum_name, sum_of(solution));
+  for (const auto& [name, values] : solution.data) write_values(file, name, values);
+  for (const auto& [name, text] : solution.text) write_text(file, name, text);
 }
 
 template <int Dim>
@@ -150,11 +163,16 @@ void write_solution(const std::filesystem::path& path, const MultiblockMesh<Dim>
   std::vector<double> times;
   for (const SolutionInstance<Dim>& instance : solution.instances) times.push_back(instance.time);
   write_times(file, base, times);
-  write_restart_data(file, base, solution.data);
+  write_restart_data(file, base, solution);
   for (std::size_t z = 0; z < mesh.zones.size(); ++z)
     write_zone_solution(file, base, z, mesh.zones[z], solution);
   file.close();
-  target.commit();
+  target.commit_keeping(previous_solution(path));
+}
+
+std::filesystem::path previous_solution(const std::filesystem::path& path) {
+  auto previous = path;
+  return previous.replace_extension(".previous" + path.extension().string());
 }
 
 template void write_solution<2>(const std::filesystem::path&, const MultiblockMesh<2>&, const Solution<2>&);

@@ -58,6 +58,36 @@ TEST_F(OutputFolder, AtomicFileWithoutCommitLeavesTheOldFileAlone) {
   EXPECT_EQ(file_count(), 1u);
 }
 
+TEST_F(OutputFolder, AtomicFileKeepsTheOneBeforeAndNothingElse) {
+  const auto path = folder_ / "a.txt", before = folder_ / "a.previous.txt";
+  for (const char* text : {"1", "2", "3"}) {
+    AtomicFile file(path);
+    std::ofstream(file.temporary()) << text;
+    file.commit_keeping(before);
+  }
+  EXPECT_EQ(read_file(path), "3");
+  EXPECT_EQ(read_file(before), "2");
+  // A process killed between its two renames leaves one file under both names.
+  std::filesystem::remove(before);
+  std::filesystem::create_hard_link(path, before);
+  {
+    AtomicFile file(path);
+    std::ofstream(file.temporary()) << "4";
+    file.commit_keeping(before);
+  }
+  EXPECT_EQ(read_file(path), "4");
+  EXPECT_EQ(read_file(before), "3");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 2);
+}
+
+TEST_F(OutputFolder, WhatKilledProcessesLeftIsRemovedAndNothingElse) {
+  for (const char* name : {"solution.cgns.part-12", "a.part-", "b.part-x1", "c.part", "d.cgns"})
+    std::ofstream(folder_ / name) << "text";
+  remove_unfinished(folder_);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "solution.cgns.part-12"));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 4);
+}
+
 TEST_F(OutputFolder, FailuresNameThePathAndTheReason) {
   write_file(folder_ / "plain", "x");
   try {

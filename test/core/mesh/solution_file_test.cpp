@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 
 #include "core/mesh/cgns_mesh.hpp"
 #include "test/core/mesh/example_meshes.hpp"
@@ -42,12 +43,14 @@ Solution<Dim> example_solution(const MultiblockMesh<Dim>& mesh, int instances, b
   }
   solution.data = {{"omega", {0.64732 / 3.0}}, {"r", {7.3e-9 / 3.0}}, {"y", {}}};
   for (int i = 0; i < 4 * instances; ++i) solution.data["y"].push_back(next());
+  solution.text = {{"case", "flow.mach = 0.8\nmesh.airfoil = \"naca0012\"\n"}, {"stage", "steady flow"}};
   return solution;
 }
 
 template <int Dim>
 void expect_equal(const Solution<Dim>& a, const Solution<Dim>& b) {
   EXPECT_EQ(a.data, b.data);
+  EXPECT_EQ(a.text, b.text);
   ASSERT_EQ(a.instances.size(), b.instances.size());
   for (std::size_t n = 0; n < a.instances.size(); ++n) {
     EXPECT_EQ(a.instances[n].time, b.instances[n].time);
@@ -77,7 +80,7 @@ TEST(SolutionFile, RestartsFromTheSameBits) {
   check(row_of_blocks<2>(12, {2, 3}), 11, false);
   check(row_of_blocks<3>(2, {2, 3, 4}), 5, true);
   check(row_of_blocks<3>(2, {2, 3, 4}), 1, false);
-  EXPECT_EQ(folder.file_count(), 1U);
+  EXPECT_EQ(folder.file_count(), 2U) << "the last and the one before";
 }
 
 // The nodes that a viewer follows from one step to the next.
@@ -155,6 +158,73 @@ TEST(SolutionFile, LeavesTheOldFileWhereTheNewOneFails) {
   EXPECT_THROW(write_solution(folder / "solution.cgns", unwritable, old), InputError);
   expect_equal<2>(read_solution<2>(folder / "solution.cgns", mesh), old);
   EXPECT_EQ(folder.file_count(), 1U);
+}
+
+TEST(SolutionFile, KeepsTheOneBefore) {
+  const TemporaryFolder folder;
+  const MultiblockMesh<2> mesh = ring(8, 3);
+  EXPECT_EQ(previous_solution("a/solution.cgns"), std::filesystem::path("a/solution.previous.cgns"));
+  for (const double omega : {1.0, 2.0, 3.0}) {
+    Solution<2> solution = example_solution<2>(mesh, 1, false);
+    solution.data["omega"] = {omega};
+    write_solution(folder / "solution.cgns", mesh, solution);
+  }
+  const auto omega_in = [&](const char* name) {
+    return read_solution<2>(folder / name, mesh).data.at("omega");
+  };
+  EXPECT_EQ(omega_in("solution.cgns"), std::vector<double>{3.0});
+  EXPECT_EQ(omega_in("solution.previous.cgns"), std::vector<double>{2.0});
+  EXPECT_EQ(folder.file_count(), 2U);
+}
+
+std::string bytes_of(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+// Where the bytes of a number stand in the file, another takes its place.
+TEST(SolutionFile, RefusesDamage) {
+  const TemporaryFolder folder;
+  const MultiblockMesh<2> mesh = ring(8, 3);
+  const Solution<2> solution = example_solution<2>(mesh, 2, true);
+  write_solution(folder / "solution.cgns", mesh, solution);
+  const std::string whole = bytes_of(folder / "solution.cgns");
+  const auto read_with = [&](const std::string& bytes) {
+    std::ofstream(folder / "damaged.cgns", std::ios::binary) << bytes;
+    return message_of([&] { read_solution<2>(folder / "damaged.cgns", mesh); });
+  };
+  EXPECT_EQ(read_with(whole), "");
+  const auto& values = solution.instances[1].zones[0].fields[2].values;
+  const std::string number(reinterpret_cast<const char*>(&values[5]), sizeof(double));
+  const auto at = whole.find(number);
+  ASSERT_NE(at, std::string::npos);
+  for (const std::size_t bit : {0U, 40U, 63U}) {
+    std::string flipped = whole;
+    flipped[at + bit / 8] = static_cast<char>(flipped[at + bit / 8] ^ (1 << bit % 8));
+    expect_contains(read_with(flipped),
+                    "damaged.cgns: is damaged: its numbers are not those that were written; "
+                    "take damaged.previous.cgns");
+  }
+  for (const double share : {0.0, 0.1, 0.5, 0.9, 0.999})
+    EXPECT_NE(read_with(whole.substr(0, static_cast<std::size_t>(share * static_cast<double>(whole.size())))),
+              "")
+        << "cut off at " << share;
+}
+
+TEST(SolutionFile, RefusesAFormatOfTheFuture) {
+  const TemporaryFolder folder;
+  const MultiblockMesh<2> mesh = ring(8, 3);
+  write_solution(folder / "solution.cgns", mesh, example_solution<2>(mesh, 1, false));
+  int fn = 0;
+  ASSERT_EQ(cg_open((folder / "solution.cgns").c_str(), CG_MODE_MODIFY, &fn), CG_OK);
+  ASSERT_EQ(cg_goto(fn, 1, "RestartData", 0, "end"), CG_OK);
+  ASSERT_EQ(cg_delete_node("format"), CG_OK);
+  const cgsize_t one = 1;
+  const double number = 7.0;
+  ASSERT_EQ(cg_array_write("format", RealDouble, 1, &one, &number), CG_OK);
+  ASSERT_EQ(cg_close(fn), CG_OK);
+  expect_contains(message_of([&] { read_solution<2>(folder / "solution.cgns", mesh); }),
+                  "its format has the number 7, this version reads 1");
 }
 
 TEST(SolutionFile, HoldsOnlyWholeSolutions) {
