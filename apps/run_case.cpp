@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 
 #include "apps/advice.hpp"
 #include "apps/case_mesh.hpp"
@@ -14,6 +15,7 @@
 #include "apps/version.hpp"
 #include "core/io/case_file.hpp"
 #include "core/io/file.hpp"
+#include "core/io/folder_lock.hpp"
 #include "core/parallel/failure_agreement.hpp"
 
 namespace wingbeat {
@@ -110,7 +112,6 @@ int execute(const Comm& comm, const CommandLine& command, Result& result, Timer&
 
 void write_failure(const CommandLine& command, Result& result, const Timer& timer,
                    const std::string& message) {
-  if (command.dry_run) return;
   result.status = "error";
   result.message = message;
   result.wall_seconds = {{"total", timer.elapsed()}};
@@ -173,7 +174,14 @@ int run_case(const Comm& comm, const CommandLine& command) {
   Timer timer;
   Result result{.command = command.verb, .ranks = comm.size(), .version = std::string(version())};
   Failure failure;
+  // A folder that another run holds is left as it is.
+  std::optional<FolderLock> lock;
+  bool holds_folder = false;
   try {
+    if (!command.dry_run) {
+      on_root(comm, [&] { lock.emplace(command.output, "wingbeat " + command.verb); });
+      holds_folder = true;
+    }
     return execute(comm, command, result, timer);
   } catch (const InputError& error) {
     failure = {exit_bad_input, error.what()};
@@ -187,14 +195,18 @@ int run_case(const Comm& comm, const CommandLine& command) {
   if (agreement.all_failed(patience_seconds)) {
     if (comm.is_root()) {
       fmt::print(stderr, "wingbeat: {}\n", failure.message);
-      write_failure(command, result, timer, failure.message);
+      if (holds_folder) write_failure(command, result, timer, failure.message);
     }
     // Ranks may have failed in different ways: the gravest decides.
     return static_cast<int>(comm.max(failure.exit_code));
   }
   const std::string message = fmt::format("rank {}: {}", comm.rank(), failure.message);
   fmt::print(stderr, "wingbeat: {}\n", message);
-  write_failure(command, result, timer, message);
+  if (holds_folder) {
+    write_failure(command, result, timer, message);
+    std::error_code ignored;
+    fs::remove(FolderLock::file_in(command.output), ignored);  // rank 0 will not come to it
+  }
   agreement.abort(failure.exit_code);
 }
 

@@ -70,14 +70,17 @@ void write_file(const fs::path& path, std::string_view text) {
   file.commit();
 }
 
+void create_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error)
+    throw InputError(fmt::format("{}: cannot create the folder: {}", folder.string(), error.message()));
+}
+
 AtomicFile::AtomicFile(fs::path path) : path_(std::move(path)) {
   // The process number keeps two runs that share a folder apart.
   temporary_ = path_.string() + fmt::format("{}{}", unfinished, ::getpid());
-  std::error_code error;
-  if (path_.has_parent_path()) fs::create_directories(path_.parent_path(), error);
-  if (error)
-    throw InputError(
-        fmt::format("{}: cannot create the folder: {}", path_.parent_path().string(), error.message()));
+  if (path_.has_parent_path()) create_folder(path_.parent_path());
 }
 
 AtomicFile::~AtomicFile() {

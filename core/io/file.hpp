@@ -13,6 +13,9 @@ std::string read_file(const std::filesystem::path& path);
 // Creates missing parent folders. Throws InputError with the system's reason.
 void write_file(const std::filesystem::path& path, std::string_view text);
 
+// Creates the folder and those above it that are missing. Throws InputError with the system's reason.
+void create_folder(const std::filesystem::path& folder);
+
 // A file under construction: write to temporary(), then commit() moves it to its name in one
 // step; without commit() it is removed. For libraries that write files themselves.
 class AtomicFile {
