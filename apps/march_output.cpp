@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <cstring>
 #include <numbers>
 
 #include "apps/flow_setup.hpp"
@@ -16,6 +18,11 @@ constexpr const char* header =
     "time,reduced_velocity,energy,plunge,pitch_deg,plunge_rate,pitch_rate,cl,cd,cm,flow_iterations,"
     "coupling_iterations\n";
 
+[[noreturn]] void refuse_table(const Context& context) {
+  throw InputError(fmt::format("{}: cannot write the file: {}", (context.output / "march.csv").string(),
+                               std::strerror(errno)));
+}
+
 constexpr double degrees = 180.0 / std::numbers::pi;
 
 }  // namespace
@@ -25,20 +32,22 @@ MarchTable::MarchTable(const Context& context) : context_(context) {
     const auto path = context.output / "march.csv";
     file_.open(path, std::ios::trunc);
     file_ << header << std::flush;
-    if (!file_) throw InputError(fmt::format("{}: cannot be written", path.string()));
+    if (!file_) refuse_table(context);
   });
 }
 
 void MarchTable::add(const MarchedStep& step) {
-  if (!context_.comm.is_root()) return;
   const CaseSettings& settings = context_.settings;
   const double pitch = section_kinematics(settings).mean_pitch + step.y[1];
   const Coefficients c = coefficients(settings, step.loads, pitch);
-  // One write a row, so that what is on disk ends with a row.
-  file_ << fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", step.time, step.reduced_velocity, step.energy,
-                       step.y[0], step.y[1] * degrees, step.y[2], step.y[3], c.cl, c.cd, c.cm,
-                       step.flow_iterations, step.coupling_iterations)
-        << std::flush;
+  on_root(context_.comm, [&] {
+    // One write a row, so that what is on disk ends with a row.
+    file_ << fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", step.time, step.reduced_velocity,
+                         step.energy, step.y[0], step.y[1] * degrees, step.y[2], step.y[3], c.cl, c.cd, c.cm,
+                         step.flow_iterations, step.coupling_iterations)
+          << std::flush;
+    if (!file_) refuse_table(context_);
+  });
 }
 
 nlohmann::ordered_json march_entry(const CaseSettings& settings, const MarchSummary& summary) {

@@ -13,6 +13,8 @@ namespace wingbeat {
 namespace {
 
 using Name = std::array<char, 33>;
+// A family may be given by its path, as deep as the library goes.
+constexpr std::size_t longest_path = 34 * CG_MAX_GOTO_DEPTH;
 
 // What the file says of one BC_t.
 template <int Dim>
@@ -64,7 +66,7 @@ Condition<Dim> read_condition(const CgnsFile& file, int base, int zone, int numb
   if (by_element) condition.location = CGNS_ENUMV(FaceCenter);
 
   file.check(cg_goto(fn, base, "Zone_t", zone, "ZoneBC_t", 1, "BC_t", number, "end"), condition.where);
-  Name family{};
+  std::array<char, longest_path> family{};
   const int status = cg_famname_read(family.data());
   if (status == CG_OK) condition.family = base_name(family.data());
   if (status != CG_OK && status != CG_NODE_NOT_FOUND) file.check(status, condition.where + ", its family");

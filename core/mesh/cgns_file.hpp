@@ -25,14 +25,19 @@ class CgnsFile {
   void check(int status, const std::string& doing) const;
   // Throws an InputError about this file.
   [[noreturn]] void refuse(const std::string& message) const;
+  // Refuses a file that tells of more values than its bytes can hold, however packed: such numbers are damaged,
+  // and memory for them is not to be had.
+  void check_count(double values, const std::string& where) const;
   // Writes what is buffered and closes, reporting failure, which the destructor cannot.
   void close();
 
  private:
-  CgnsFile(int number, std::string name) : number_(number), name_(std::move(name)) {}
+  CgnsFile(int number, std::string name, double bytes)
+      : number_(number), name_(std::move(name)), bytes_(bytes) {}
 
   int number_ = -1;
   std::string name_;
+  double bytes_ = 0.0;
 };
 
 }  // namespace wingbeat

@@ -55,7 +55,7 @@ Interface<Dim> read_interface(const CgnsFile& file, int base, int zone, int numb
                               const std::vector<Zone<Dim>>& blocks) {
   const Zone<Dim>& block = blocks[zone - 1];
   Name name{};
-  Name donor{};
+  std::array<char, 67> donor{};  // "Base/Zone"
   std::array<cgsize_t, 6> range{};
   std::array<cgsize_t, 6> donor_range{};
   std::array<int, 3> transform{};

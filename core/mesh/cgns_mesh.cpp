@@ -62,6 +62,9 @@ Zone<Dim> read_zone_size(const CgnsFile& file, int number) {
       file.refuse(fmt::format("zone '{}': has {} nodes in direction {}; at least 2 are needed", zone.name,
                               size[d], "ijk"[d]));
   }
+  double count = 1.0;
+  for (const int n : nodes) count *= static_cast<double>(n);
+  file.check_count(count, fmt::format("zone '{}'", zone.name));
   zone.nodes = BlockArray<Vec<double, Dim>, Dim>(nodes, 0);
   return zone;
 }

@@ -1,5 +1,6 @@
 #include <cgnslib.h>
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 
@@ -86,10 +87,11 @@ std::vector<double> read_array(const CgnsFile& file, const std::string& name, co
     std::array<cgsize_t, 12> size{};
     file.check(cg_array_info(a, found.data(), &type, &dimension, size.data()), where);
     if (name != found.data()) continue;
-    std::size_t length = 1;
+    double length = 1.0;
     for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d)
-      length *= static_cast<std::size_t>(size[d]);
-    std::vector<double> values(length);
+      length *= std::max(0.0, static_cast<double>(size[d]));
+    file.check_count(length, where + ", " + name);
+    std::vector<double> values(static_cast<std::size_t>(length));
     file.check(cg_array_read_as(a, CGNS_ENUMV(RealDouble), values.data()), where + ", " + name);
     return values;
   }
