@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/breakdown.hpp"
 #include "apps/flow_cycles.hpp"
 #include "apps/flow_setup.hpp"
 #include "core/io/progress.hpp"
@@ -166,6 +167,7 @@ CycleSolution CycleSolver::solve_coupled(const std::string& stage, const CycleSt
              });
   solution.status = result.status;
   solution.state = problem.state(u);
+  if (solution.status == SolveStatus::diverged) note_breakdown(context_, level_, solution.state.w);
   if (solution.status == SolveStatus::converged && is_at_rest(condition, solution.state.y))
     solution.status = SolveStatus::stalled;
   solution.newton_iterations = result.iterations;
@@ -204,9 +206,11 @@ CycleSolution CycleSolver::solve_by_turns(const std::string& stage, const CycleS
       fmt::format("{}, staggered, Runge-Kutta on {} meshes", stage, cycles.multigrid().levels()),
       {"iter", "|R|", "|S|", "omega", "V", "relaxation"});
   double first = 0.0;
+  BreakdownWatch watch(context_, level_);
   const StaggeredResult result = solve_staggered<2>(
       [&](std::span<double> w, std::span<const MotionState> motions, double kappa) {
         cycles.multigrid().cycle(w, motions, kappa, cycles.step());
+        watch.look(w);
       },
       flow, StructuralEquation(model_, time_), section_kinematics(settings), amplitude, solution.state,
       settings.staggered.options(target),

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "apps/breakdown.hpp"
 #include "core/io/error.hpp"
 #include "core/io/progress.hpp"
 
@@ -43,11 +44,13 @@ PseudoTimeResult FlowCycles::solve(std::vector<double>& w, const std::vector<Mot
       fmt::format("{}, {}, Runge-Kutta on {} mesh{}", stage, mesh_size_text<2>(level_.mesh),
                   multigrid_.levels(), multigrid_.levels() == 1 ? "" : "es");
   Progress progress(context_.log, title, {"cycle", "|R|", "CFL"});
+  BreakdownWatch watch(context_, level_);
   double first = 0.0;
   int retreats = 0;
   return pseudo_time<2>(flow_, multigrid_, w, motions, kappa, options_, [&](const PseudoTimeIteration& i) {
     history.cycle(stage, i);
     if (i.cycle == 0) first = i.residual;
+    watch.look(w);
     if (i.retreats > retreats)
       context_.log.line("  diverged: back to the last good state, CFL number {:.3g}", i.cfl);
     retreats = i.retreats;

@@ -7,6 +7,7 @@
 #include <memory>
 #include <numbers>
 
+#include "apps/breakdown.hpp"
 #include "apps/flow_setup.hpp"
 #include "core/io/progress.hpp"
 #include "structure/energy.hpp"
@@ -68,6 +69,7 @@ Marcher::Marcher(Context& context, FlowLevel<2>& level, const StructureModel& mo
 
 SolveStatus Marcher::advance(March& march) {
   const TimeStepResult result = march.structure->step();
+  if (result.status == SolveStatus::diverged) note_breakdown(context_, level_, flow_.w());
   if (result.status != SolveStatus::converged) return result.status;
   const std::span<const double> y = march.structure->y();
   march.record.insert(march.record.end(), y.begin(), y.end());

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "apps/advice.hpp"
+#include "apps/breakdown.hpp"
 #include "apps/flow_cycles.hpp"
 #include "apps/flow_setup.hpp"
 #include "apps/forced_output.hpp"
@@ -86,6 +87,7 @@ ForcedFlowStage solve_forced(Context& context, FlowLevel<2>& level, const TimeSp
     const int cycles = result.cycles;
     result = solve_with_progress(context, flow, start, motions, history);
     result.cycles = cycles;
+    if (result.status == SolveStatus::diverged) note_breakdown(context, level, start.w);
     context.result.message = forced_advice(result.status, solver);
   }
   history.write();

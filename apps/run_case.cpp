@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "apps/advice.hpp"
+#include "apps/breakdown.hpp"
 #include "apps/case_mesh.hpp"
 #include "apps/on_root.hpp"
 #include "apps/timing.hpp"
@@ -137,6 +138,7 @@ SolveStatus run_recipe(const Verb& verb, Context& context) {
   Result& result = context.result;
   result.status = to_string(status);
   if (result.message.empty()) result.message = general_advice(status);
+  if (status == SolveStatus::diverged) result.message = with_breakdown(result);
   if (status != SolveStatus::converged) context.log.warn(result.message);
   finish(context);
   return status;

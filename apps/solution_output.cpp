@@ -13,6 +13,7 @@
 #include "core/io/csv.hpp"
 #include "core/io/error.hpp"
 #include "core/mesh/solution_file.hpp"
+#include "flow/flow_fault.hpp"
 #include "partition/gather_field.hpp"
 
 namespace wingbeat {
@@ -177,6 +178,11 @@ StoredSolution read_stored_solution(const Context& context, const FlowLevel<2>& 
               throw InputError(fmt::format("{}: no field {}", file.string(), name));
             whole.push_back(field->values[c]);
           }
+    const std::string fault = describe_fault<2>(level.mesh, whole, context.settings.flow.gamma);
+    if (!fault.empty())
+      throw InputError(fmt::format(
+          "{}: holds no flow: {}; the file is damaged: start from another one, or without --restart",
+          context.restart->string(), fault));
     const auto value = [&](const char* name) {
       const auto found = solution.data.find(name);
       if (found == solution.data.end())

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "apps/advice.hpp"
+#include "apps/breakdown.hpp"
 #include "apps/flow_cycles.hpp"
 #include "apps/flow_setup.hpp"
 #include "apps/neighbour.hpp"
@@ -49,6 +50,10 @@ SteadyOutcome solve_by_newton(Context& context, FlowLevelRange<2> levels, const 
             converged_fraction(1.0, i.residual, options.tolerance));
         return !context.stop.is_set();
       });
+  if (result.status == SolveStatus::diverged) {
+    const FlowLevel<2>& finest = *levels[levels.size() - 1];
+    note_breakdown(context, finest, finest.w);
+  }
   return {result.status,
           result.residual,
           {result.iterations, result.linear_iterations, result.factorizations, 0}};
