@@ -96,11 +96,51 @@ template <int Dim>
 void DualTime<Dim>::set_formula(const BackwardDifference& formula) {
   const double shift = formula.c[0] / dt_;
   if (shift == shift_) return;
+  set_shift(shift);
+  round_off_ = rounded_terms * rounding<Dim>(flow_, history_.front(), shifts_);
+  is_linearization_due_ = are_factors_due_ = true;
+}
+
+template <int Dim>
+void DualTime<Dim>::set_shift(double shift) {
   shift_ = shift;
   const auto volumes = flow_.domain().volumes();
   for (std::size_t c = 0; c < shifts_.size(); ++c) shifts_[c] = shift * volumes[c];
-  round_off_ = rounded_terms * rounding<Dim>(flow_, history_.front(), shifts_);
-  is_linearization_due_ = are_factors_due_ = true;
+}
+
+template <int Dim>
+DualTimeMemory DualTime<Dim>::memory() const {
+  ensure(!is_open_, "a step in time is remembered once it has been accepted");
+  DualTimeMemory kept{dt_,
+                      shift_,
+                      round_off_,
+                      is_linearization_due_,
+                      are_factors_due_,
+                      fewest_iterations_,
+                      excess_iterations_,
+                      linearized_motion_,
+                      factored_motion_,
+                      {},
+                      {}};
+  if (!is_linearization_due_) kept.linearized_w = linearized_w_;
+  if (!are_factors_due_) kept.factored_w = factored_w_;
+  return kept;
+}
+
+template <int Dim>
+void DualTime<Dim>::resume(const DualTimeMemory& memory) {
+  dt_ = memory.dt;
+  set_shift(memory.shift);
+  round_off_ = memory.round_off;
+  if (!memory.are_factors_due) {
+    linearize_at(memory.factored_w, memory.factored_motion);
+    factor_at_linearization();
+  }
+  if (!memory.is_linearization_due) linearize_at(memory.linearized_w, memory.linearized_motion);
+  is_linearization_due_ = memory.is_linearization_due;
+  are_factors_due_ = memory.are_factors_due;
+  fewest_iterations_ = memory.fewest_iterations;
+  excess_iterations_ = memory.excess_iterations;
 }
 
 template <int Dim>
@@ -134,15 +174,29 @@ DualTimeResult DualTime<Dim>::solve(const MotionState& motion, double tolerance)
 
 template <int Dim>
 void DualTime<Dim>::linearize(const MotionState& motion, DualTimeResult& result) {
-  flow_.linearize_state(w_, {&motion, 1}, 0.0);
+  linearize_at(w_, motion);
   ++result.linearizations;
   is_linearization_due_ = false;
   if (!are_factors_due_) return;
-  level_.solver->template factor<state_size<Dim>>(flow_.jacobians()[0], shifts_);
+  factor_at_linearization();
   ++result.factorizations;
   are_factors_due_ = false;
   fewest_iterations_ = options_.gmres.max_iterations;
   excess_iterations_ = 0;
+}
+
+template <int Dim>
+void DualTime<Dim>::linearize_at(const std::vector<double>& w, const MotionState& motion) {
+  flow_.linearize_state(w, {&motion, 1}, 0.0);
+  linearized_w_ = w;
+  linearized_motion_ = motion;
+}
+
+template <int Dim>
+void DualTime<Dim>::factor_at_linearization() {
+  level_.solver->template factor<state_size<Dim>>(flow_.jacobians()[0], shifts_);
+  factored_w_ = linearized_w_;
+  factored_motion_ = linearized_motion_;
 }
 
 // Refactoring when the excess has paid for it keeps the mean cost of a step least where the excess grows

@@ -39,6 +39,20 @@ struct DualTimeResult {
   double residual = 1.0;  // |R + Omega dw/dt| relative to |Omega dw/dt|
 };
 
+// What the steps go on with, bit for bit but for how factors were pivoted, beside the levels: a linearization
+// and factors are kept over steps, and made again from what they were made of.
+struct DualTimeMemory {
+  double dt = 0.0;
+  double shift = 0.0;
+  double round_off = 0.0;
+  bool is_linearization_due = true;
+  bool are_factors_due = true;
+  int fewest_iterations = 0;
+  int excess_iterations = 0;
+  MotionState linearized_motion, factored_motion;
+  std::vector<double> linearized_w, factored_w;  // empty where none is kept
+};
+
 // The flow about a section in motion, one step of constant length after another (eq:dual-time):
 //   (Omega/dt) sum_k c_k w^{n+1-k} + balance(w^{n+1}, motion^{n+1}) = 0,
 // on a mesh that moves rigidly: volumes stay, and what faces sweep at the new level is exact. Each step is
@@ -54,6 +68,11 @@ class DualTime {
   // starts with steps of lower order; `order` levels, of a periodic solution or of an earlier run, give the
   // full order from the first step, and one more the predictor that goes with it. More are not used.
   void start(std::vector<std::vector<double>> history);
+
+  bool is_open() const { return is_open_; }
+  // Between steps: what they go on with, and going on with it after start() with the levels it belongs to.
+  DualTimeMemory memory() const;
+  void resume(const DualTimeMemory& memory);
 
   // Opens a step of length dt on the flow's clock: w is extrapolated from the history (eq:extrapolation).
   // The length may change by another start() only.
@@ -81,7 +100,10 @@ class DualTime {
   Measure evaluate(std::span<const double> state, const MotionState& motion, std::span<double> r);
   double relative(const Measure& measure, double tolerance) const;
   void set_formula(const BackwardDifference& formula);
+  void set_shift(double shift);
   void linearize(const MotionState& motion, DualTimeResult& result);
+  void linearize_at(const std::vector<double>& w, const MotionState& motion);
+  void factor_at_linearization();
   bool are_factors_old(const GmresResult& linear);
   DualTimeResult solve_by_newton(const MotionState& motion, double tolerance);
   DualTimeResult solve_by_cycles(const MotionState& motion, double tolerance);
@@ -105,6 +127,8 @@ class DualTime {
   bool are_factors_due_ = true;
   int fewest_iterations_ = 0;  // Krylov iterations of the best solve with the factors
   int excess_iterations_ = 0;  // of all others over that
+  MotionState linearized_motion_, factored_motion_;
+  std::vector<double> linearized_w_, factored_w_;
   std::vector<double> r_, trial_, trial_r_, dw_;
 };
 

@@ -16,23 +16,38 @@ constexpr int cycles_to_trust = 10;
 template <int Dim>
 PseudoTimeResult pseudo_time(FlowEquations<Dim>& flow, Multigrid<Dim>& multigrid, std::span<double> w,
                              std::span<const MotionState> motions, TimeTerm term,
-                             const PseudoTimeOptions& options, const PseudoTimeObserver& observer) {
+                             const PseudoTimeOptions& options, const PseudoTimeObserver& observer,
+                             const PseudoTimeMemory* earlier) {
   const Comm& comm = flow.domain().comm();
   const double gamma = flow.model().freestream.gamma, scale = flow.uniform_residual();
   RungeKuttaOptions step = options.multigrid.runge_kutta;
   std::vector<double> good(w.begin(), w.end()), before(w.size());
   PseudoTimeResult result;
+  if (earlier) {
+    good = earlier->good;
+    step.cfl = earlier->cfl;
+    result.cycles = earlier->cycles;
+    result.retreats = earlier->retreats;
+  }
+  const int begun = result.cycles;
+  const auto leave = [&](SolveStatus status, int cycles) {
+    result.memory = PseudoTimeMemory{cycles, result.retreats, step.cfl, std::move(good)};
+    result.status = status;
+    return result;
+  };
   while (true) {
     std::copy(w.begin(), w.end(), before.begin());
     const double norm = std::sqrt(comm.sum(multigrid.cycle(w, motions, term, step))) / scale;
     const bool is_good = norm < hopeless_residual && !comm.any(!is_physical<Dim>(w, gamma));
     result.cfl = step.cfl;
     if (std::isfinite(norm)) result.residual = norm;
-    const bool is_stopped = observer && comm.any(!observer({result.cycles, norm, step.cfl, result.retreats}));
+    const bool is_stopped =
+        observer && comm.any(!observer({result.cycles, norm, step.cfl, result.retreats, before, good}));
     const bool is_converged = norm <= options.tolerance;
     if (is_converged || is_stopped) {
       std::copy(before.begin(), before.end(), w.begin());
-      return result.status = is_converged ? SolveStatus::converged : SolveStatus::interrupted, result;
+      if (!is_converged) return leave(SolveStatus::interrupted, result.cycles);
+      return result.status = SolveStatus::converged, result;
     }
     if (!is_good) {
       std::copy(good.begin(), good.end(), w.begin());
@@ -42,7 +57,8 @@ PseudoTimeResult pseudo_time(FlowEquations<Dim>& flow, Multigrid<Dim>& multigrid
     } else if (result.cycles % cycles_to_trust == 0) {
       good = before;
     }
-    if (result.cycles == options.max_cycles) return result.status = SolveStatus::iteration_limit, result;
+    if (result.cycles - begun == options.max_cycles)
+      return leave(SolveStatus::iteration_limit, result.cycles + 1);
     ++result.cycles;
   }
 }
@@ -77,10 +93,10 @@ std::vector<double> full_multigrid_start(const FlowEquations<Dim>& flow, const D
 
 template PseudoTimeResult pseudo_time<2>(FlowEquations<2>&, Multigrid<2>&, std::span<double>,
                                          std::span<const MotionState>, TimeTerm, const PseudoTimeOptions&,
-                                         const PseudoTimeObserver&);
+                                         const PseudoTimeObserver&, const PseudoTimeMemory*);
 template PseudoTimeResult pseudo_time<3>(FlowEquations<3>&, Multigrid<3>&, std::span<double>,
                                          std::span<const MotionState>, TimeTerm, const PseudoTimeOptions&,
-                                         const PseudoTimeObserver&);
+                                         const PseudoTimeObserver&, const PseudoTimeMemory*);
 template std::vector<double> full_multigrid_start<2>(const FlowEquations<2>&, const DividedMesh<2>&,
                                                      std::span<const MotionState>, TimeTerm,
                                                      const PseudoTimeOptions&, const PseudoTimeObserver&);

@@ -55,7 +55,7 @@ class Staggered {
  public:
   Staggered(const FlowCycle& cycle, FlowEquations<Dim>& flow, const StructuralEquation& structure,
             const SectionKinematics& kinematics, const CycleAmplitude& amplitude,
-            const StaggeredOptions& options, AeroelasticState& state)
+            const StaggeredOptions& options, AeroelasticState& state, const StaggeredMemory* earlier)
       : cycle_(cycle),
         flow_(flow),
         comm_(flow.domain().comm()),
@@ -66,25 +66,36 @@ class Staggered {
         phase_(phase_condition(structure.model(), structure.time())),
         uniform_residual_(flow.uniform_residual()),
         relaxation_(options.relaxation) {
+    if (earlier) {
+      go_on(amplitude, *earlier);
+      return;
+    }
     if (const auto* given = std::get_if<GivenEnergy>(&amplitude)) {
       energy_ = energy_condition(structure.model(), given->energy).energy;
     } else {
       const auto& speed = std::get<GivenSpeed>(amplitude);
-      search_.emplace(std::pow(speed.reduced_velocity / kinematics.reference_velocity, 2),
-                      speed.initial_energy);
+      search_.emplace(r_of(speed), speed.initial_energy);
       energy_ = search_->energy();
     }
     normalize(state_.y);
-    start_ = best_ = state_;
+    start_omega_ = state_.omega;
+    start_r_ = state_.r;
+    best_ = state_;
   }
 
   StaggeredResult solve(const StaggeredObserver& observer);
 
  private:
+  void go_on(const CycleAmplitude& amplitude, const StaggeredMemory& earlier);
+  StaggeredMemory memory() const;
+  double r_of(const GivenSpeed& speed) const {
+    return std::pow(speed.reduced_velocity / kinematics_.reference_velocity, 2);
+  }
   void normalize(std::vector<double>& y) const;
   void advance_flow();
   bool measure();  // false where the iterate makes no sense
-  double merit() const;
+  void keep_best();
+  double merit(const AeroelasticResiduals& residuals) const;
   bool is_converged() const;
   void advance_structure();
   void take_structural_step();
@@ -107,12 +118,55 @@ class Staggered {
   double previous_r_ = 0.0;
   int settled_steps_ = 0;
 
-  AeroelasticState start_, best_;
+  double start_omega_ = 0.0, start_r_ = 0.0;
+  AeroelasticState best_;
+  AeroelasticResiduals best_residuals_;
   double best_merit_ = std::numeric_limits<double>::infinity();
   int steps_since_best_ = 0;
   std::vector<double> forces_, residual_;
   StaggeredResult result_;
+  int begun_ = 0;            // iterations of an earlier run
+  bool is_resumed_ = false;  // the next state to look at is one that run has seen
 };
+
+template <int Dim>
+void Staggered<Dim>::go_on(const CycleAmplitude& amplitude, const StaggeredMemory& earlier) {
+  result_.iterations = begun_ = earlier.iterations;
+  result_.flow_cycles = earlier.flow_cycles;
+  result_.recoveries = earlier.recoveries;
+  steps_since_best_ = earlier.steps_since_best;
+  settled_steps_ = earlier.settled_steps;
+  relaxation_ = earlier.relaxation;
+  energy_ = earlier.energy;
+  previous_r_ = earlier.previous_r;
+  start_omega_ = earlier.start_omega;
+  start_r_ = earlier.start_r;
+  if (const auto* speed = std::get_if<GivenSpeed>(&amplitude))
+    search_.emplace(r_of(*speed), energy_, earlier.last_point);
+  best_ = earlier.best;
+  best_residuals_ = earlier.best_residuals;
+  best_merit_ = merit(best_residuals_);
+  is_resumed_ = true;
+}
+
+template <int Dim>
+StaggeredMemory Staggered<Dim>::memory() const {
+  StaggeredMemory kept;
+  kept.iterations = result_.iterations;
+  kept.flow_cycles = result_.flow_cycles;
+  kept.recoveries = result_.recoveries;
+  kept.steps_since_best = steps_since_best_;
+  kept.settled_steps = settled_steps_;
+  kept.relaxation = relaxation_;
+  kept.energy = energy_;
+  kept.previous_r = previous_r_;
+  kept.start_omega = start_omega_;
+  kept.start_r = start_r_;
+  if (search_) kept.last_point = search_->last();
+  kept.best = best_;
+  kept.best_residuals = best_residuals_;
+  return kept;
+}
 
 template <int Dim>
 void Staggered<Dim>::normalize(std::vector<double>& y) const {
@@ -139,7 +193,7 @@ void Staggered<Dim>::advance_flow() {
 template <int Dim>
 bool Staggered<Dim>::measure() {
   const bool is_sane = is_physical<Dim>(state_.w, flow_.model().freestream.gamma) &&
-                       is_within(state_.omega, start_.omega) && is_within(state_.r, start_.r);
+                       is_within(state_.omega, start_omega_) && is_within(state_.r, start_r_);
   if (comm_.any(!is_sane)) return false;
   const std::vector<MotionState> moved = motions();
   residual_.resize(flow_.state_count());
@@ -159,21 +213,25 @@ bool Staggered<Dim>::measure() {
   residuals.phase = std::abs(value(AmplitudeCondition(phase_), state_.y)) / scale;
   residuals.energy = search_ ? std::abs(search_->mismatch(state_.r))
                              : std::abs(fluctuating_energy(structure_.model(), state_.y) / energy_ - 1.0);
-  const double now = merit();
+  return std::isfinite(merit(residuals));
+}
+
+template <int Dim>
+void Staggered<Dim>::keep_best() {
+  const double now = merit(result_.residuals);
   if (now < best_merit_) {
     best_merit_ = now;
+    best_residuals_ = result_.residuals;
     best_ = state_;
     steps_since_best_ = 0;
   } else {
     ++steps_since_best_;
   }
-  return std::isfinite(now);
 }
 
 // The largest residual in units of its tolerance.
 template <int Dim>
-double Staggered<Dim>::merit() const {
-  const AeroelasticResiduals& r = result_.residuals;
+double Staggered<Dim>::merit(const AeroelasticResiduals& r) const {
   const double structure = r.structure / options_.tolerances.structure;
   return std::max(r.flow / options_.tolerances.flow, structure);
 }
@@ -254,25 +312,28 @@ bool Staggered<Dim>::recover() {
 template <int Dim>
 StaggeredResult Staggered<Dim>::solve(const StaggeredObserver& observer) {
   for (;; ++result_.iterations) {
-    if (result_.iterations > 0) advance_flow();
+    if (result_.iterations > 0 && !is_resumed_) advance_flow();
     const bool is_sane = measure();
+    if (is_sane && !is_resumed_) keep_best();
+    is_resumed_ = false;
     if (!is_sane || steps_since_best_ > patience) {
       if (recover()) continue;
       result_.status = is_sane ? SolveStatus::stalled : SolveStatus::diverged;
       break;
     }
     const double v = kinematics_.reduced_velocity(state_.r);
-    const bool goes_on =
-        !observer || observer({result_.iterations, result_.residuals, state_.omega, v, energy_, relaxation_});
+    const bool goes_on = !observer || observer({result_.iterations, result_.residuals, state_.omega, v,
+                                                energy_, relaxation_, [this] { return memory(); }});
     if (is_converged()) {
       result_.status = SolveStatus::converged;
       return result_;
     }
     if (!goes_on) {
       result_.status = SolveStatus::interrupted;
+      result_.memory = memory();
       return result_;
     }
-    if (result_.iterations == options_.max_iterations) break;
+    if (result_.iterations - begun_ == options_.max_iterations) break;
     if (search_ && result_.iterations > 0) advance_energy();
     advance_structure();
   }
@@ -287,17 +348,19 @@ template <int Dim>
 StaggeredResult solve_staggered(const FlowCycle& cycle, FlowEquations<Dim>& flow,
                                 const StructuralEquation& structure, const SectionKinematics& kinematics,
                                 const CycleAmplitude& amplitude, AeroelasticState& state,
-                                const StaggeredOptions& options, const StaggeredObserver& observer) {
-  return Staggered<Dim>(cycle, flow, structure, kinematics, amplitude, options, state).solve(observer);
+                                const StaggeredOptions& options, const StaggeredObserver& observer,
+                                const StaggeredMemory* earlier) {
+  return Staggered<Dim>(cycle, flow, structure, kinematics, amplitude, options, state, earlier)
+      .solve(observer);
 }
 
 template StaggeredResult solve_staggered<2>(const FlowCycle&, FlowEquations<2>&, const StructuralEquation&,
                                             const SectionKinematics&, const CycleAmplitude&,
                                             AeroelasticState&, const StaggeredOptions&,
-                                            const StaggeredObserver&);
+                                            const StaggeredObserver&, const StaggeredMemory*);
 template StaggeredResult solve_staggered<3>(const FlowCycle&, FlowEquations<3>&, const StructuralEquation&,
                                             const SectionKinematics&, const CycleAmplitude&,
                                             AeroelasticState&, const StaggeredOptions&,
-                                            const StaggeredObserver&);
+                                            const StaggeredObserver&, const StaggeredMemory*);
 
 }  // namespace wingbeat

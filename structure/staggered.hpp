@@ -1,10 +1,12 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <variant>
 
 #include "structure/aeroelastic_problem.hpp"
+#include "structure/staggered_energy_search.hpp"
 
 namespace wingbeat {
 
@@ -33,6 +35,23 @@ struct StaggeredOptions {
   AeroelasticTolerances tolerances{};
 };
 
+// What the iteration goes on with, bit for bit, beside the state.
+struct StaggeredMemory {
+  int iterations = 0;
+  int flow_cycles = 0;
+  int recoveries = 0;
+  int steps_since_best = 0;
+  int settled_steps = 0;
+  double relaxation = 1.0;
+  double energy = 0.0;  // E_fl of the state
+  double previous_r = 0.0;
+  double start_omega = 0.0;  // omega and r may not leave a range about these
+  double start_r = 0.0;
+  std::optional<EnergySearch::Point> last_point;  // of the search for the energy of a speed
+  AeroelasticState best;                          // to recover from
+  AeroelasticResiduals best_residuals;
+};
+
 struct StaggeredIteration {
   int iteration = 0;  // structural steps taken so far
   AeroelasticResiduals residuals;
@@ -40,6 +59,7 @@ struct StaggeredIteration {
   double reduced_velocity = 0.0;
   double energy = 0.0;  // E_fl
   double relaxation = 1.0;
+  std::function<StaggeredMemory()> memory{};  // what belongs to the state as it is now
 };
 // Return false to stop early.
 using StaggeredObserver = std::function<bool(const StaggeredIteration&)>;
@@ -49,7 +69,8 @@ struct StaggeredResult {
   int iterations = 0;
   int flow_cycles = 0;
   int recoveries = 0;
-  AeroelasticResiduals residuals;  // of the state returned
+  AeroelasticResiduals residuals;         // of the state returned
+  std::optional<StaggeredMemory> memory;  // where it was stopped: to go on with
 };
 
 // Flutter or limit cycle by turns (eq:staggered): cycles of the flow solver at given motion; then, on
@@ -61,11 +82,13 @@ struct StaggeredResult {
 // An iterate that is not finite or physical, whose omega or r leave a factor of 3 about the start's, or
 // that is no better than one 300 steps ago is given up for the best one, and the relaxation halved;
 // after max_recoveries of these the status is `diverged` or, in the last case, `stalled`. Throws InputError
-// where the phase mode is at rest in the start. Collective.
+// where the phase mode is at rest in the start. With the `earlier` memory that belongs to the state it goes
+// on as if it had not been stopped; max_iterations are then allowed anew. Collective.
 template <int Dim>
 StaggeredResult solve_staggered(const FlowCycle& cycle, FlowEquations<Dim>& flow,
                                 const StructuralEquation& structure, const SectionKinematics& kinematics,
                                 const CycleAmplitude& amplitude, AeroelasticState& state,
-                                const StaggeredOptions& options, const StaggeredObserver& observer = {});
+                                const StaggeredOptions& options, const StaggeredObserver& observer = {},
+                                const StaggeredMemory* earlier = nullptr);
 
 }  // namespace wingbeat

@@ -15,8 +15,8 @@ constexpr double first_factor = 1.5;  // a second point, far enough to give a sl
 
 }  // namespace
 
-EnergySearch::EnergySearch(double target_r, double initial_energy)
-    : target_(target_r), energy_(initial_energy) {
+EnergySearch::EnergySearch(double target_r, double initial_energy, std::optional<Point> last)
+    : target_(target_r), energy_(initial_energy), last_(last) {
   if (!(target_r > 0.0) || !std::isfinite(target_r))
     throw InputError(
         fmt::format("limit cycle at freestream parameter r = {}: must be a number > 0", target_r));

@@ -8,10 +8,16 @@ namespace wingbeat {
 // r(E), which is close to a straight line where it leaves the flutter boundary (eq:energy-search).
 class EnergySearch {
  public:
-  EnergySearch(double target_r, double initial_energy);
+  struct Point {
+    double energy, mismatch;
+  };
+
+  // `last`: the point before, of a search that goes on.
+  EnergySearch(double target_r, double initial_energy, std::optional<Point> last = std::nullopt);
 
   double energy() const { return energy_; }
   double target_r() const { return target_; }
+  const std::optional<Point>& last() const { return last_; }
   // r/r_target - 1.
   double mismatch(double r) const { return r / target_ - 1.0; }
   // Takes in r of the cycle of the present energy and moves on to the next energy, at most a factor
@@ -19,9 +25,6 @@ class EnergySearch {
   void advance(double r);
 
  private:
-  struct Point {
-    double energy, mismatch;
-  };
   double target_;
   double energy_;
   std::optional<Point> last_;

@@ -40,7 +40,7 @@ TimeMarching::TimeMarching(StructureModel model, double load, double dtau, Unste
   weight_ = Eigen::MatrixXd::Zero(2 * m, 2 * m);
   weight_.topLeftCorner(m, m) = structure_.model().stiffness;
   weight_.bottomRightCorner(m, m) = structure_.model().mass;
-  response_ = Eigen::MatrixXd::Zero(m, 2 * m);
+  memory_.response = Eigen::MatrixXd::Zero(m, 2 * m);
 }
 
 void TimeMarching::start(std::vector<std::vector<double>> history) {
@@ -48,8 +48,8 @@ void TimeMarching::start(std::vector<std::vector<double>> history) {
   for (const auto& level : history)
     ensure(level.size() == structure_.state_size(), "structural state of the wrong size");
   history_ = std::move(history);
-  forces_.clear();
-  response_.setZero();
+  memory_.forces.clear();
+  memory_.response.setZero();
 }
 
 TimeStepResult TimeMarching::step() {
@@ -62,14 +62,14 @@ TimeStepResult TimeMarching::step() {
 
   flow_.begin(dtau_);
   std::vector<double> y = history_.front();
-  if (!forces_.empty()) {
+  if (!memory_.forces.empty()) {
     Eigen::VectorXd f = Eigen::VectorXd::Zero(structure_.modes());
-    const std::vector<double> weights = extrapolation_weights(static_cast<int>(forces_.size()));
-    for (std::size_t k = 0; k < forces_.size(); ++k) f += weights[k] * forces_[k];
-    const Eigen::MatrixXd learnt = response_;
-    response_.setZero();
+    const std::vector<double> weights = extrapolation_weights(static_cast<int>(memory_.forces.size()));
+    for (std::size_t k = 0; k < memory_.forces.size(); ++k) f += weights[k] * memory_.forces[k];
+    const Eigen::MatrixXd learnt = memory_.response;
+    memory_.response.setZero();
     y = implicit_step(past, formula.c[0], f, y).value_or(y);
-    response_ = learnt;
+    memory_.response = learnt;
   }
 
   TimeStepResult result;
@@ -101,8 +101,8 @@ TimeStepResult TimeMarching::step() {
     result.change = travel > 0.0 ? change / travel : change;
     if (change <= std::max(least, round_off * norm(next))) {
       flow_.accept();
-      keep_newest(history_, std::move(next), static_cast<std::size_t>(options_.order));
-      keep_newest(forces_, std::move(f), predicted_from);
+      keep_newest(history_, std::move(next), static_cast<std::size_t>(options_.order) + 1);
+      keep_newest(memory_.forces, std::move(f), predicted_from);
       result.status = SolveStatus::converged;
       return result;
     }
@@ -125,13 +125,13 @@ std::optional<std::vector<double>> TimeMarching::implicit_step(const std::vector
   std::vector<double> y = about, s(about.size());
   bool is_settled = false;
   for (int i = 0; i < max_newton; ++i) {
-    const Eigen::VectorXd now = f + response_ * (map(y) - map(about));
+    const Eigen::VectorXd now = f + memory_.response * (map(y) - map(about));
     structure_.residual(y, 0.0, load_, {now.data(), static_cast<std::size_t>(now.size())}, s);
     const Eigen::VectorXd rows = map(s) + (c0 * map(y) + map(past)) / dtau_;
     Eigen::MatrixXd jacobian = structure_.state_jacobian(y, 0.0);
     jacobian.diagonal().array() += c0 / dtau_;
     for (Eigen::Index j = 0; j < width; ++j) {
-      const Eigen::VectorXd column = response_.col(j);
+      const Eigen::VectorXd column = memory_.response.col(j);
       structure_.add_force_tangent(load_, {column.data(), static_cast<std::size_t>(column.size())}, 1.0,
                                    {jacobian.col(j).data(), about.size()});
     }
@@ -148,7 +148,7 @@ std::optional<std::vector<double>> TimeMarching::implicit_step(const std::vector
 void TimeMarching::learn_response(const std::vector<double>& dy, const Eigen::VectorXd& df) {
   const Eigen::Map<const Eigen::VectorXd> step(dy.data(), static_cast<Eigen::Index>(dy.size()));
   const Eigen::VectorXd weighted = weight_ * step;
-  response_ += (df - response_ * step) * weighted.transpose() / step.dot(weighted);
+  memory_.response += (df - memory_.response * step) * weighted.transpose() / step.dot(weighted);
 }
 
 double TimeMarching::norm(const std::vector<double>& dy) const {

@@ -36,6 +36,12 @@ struct TimeStepResult {
   double change = 0.0;  // as in the tolerance
 };
 
+// What the steps go on with, bit for bit, beside the levels.
+struct TimeMarchingMemory {
+  std::vector<Eigen::VectorXd> forces;  // of the steps taken, newest first
+  Eigen::MatrixXd response;             // J ~ df/dy within a step, m x 2m
+};
+
 // One structure in time, y' + A y + (0, M^-1 g(u)) = load (0, M^-1 f), by backward differences, the flow
 // and it converged in every step (eq:time-marching). Predicts the forces by their extrapolation, so that
 // mostly one visit to the flow does; the instant response df/dy, which matters for light structures, is
@@ -47,8 +53,12 @@ class TimeMarching {
   TimeMarching(StructureModel model, double load, double dtau, UnsteadyLoads& flow,
                const TimeMarchingOptions& options);
 
-  // States of 2m values, newest first, dtau apart. Fewer than `order`: first steps of lower order.
+  // States of 2m values, newest first, dtau apart. Fewer than `order`: first steps of lower order. One more
+  // than that is kept for who keeps as many levels of the flow.
   void start(std::vector<std::vector<double>> history);
+  const TimeMarchingMemory& memory() const { return memory_; }
+  // After start() with the levels it belongs to.
+  void resume(TimeMarchingMemory memory) { memory_ = std::move(memory); }
   // On failure y stays at the last good step. Collective.
   TimeStepResult step();
 
@@ -70,10 +80,9 @@ class TimeMarching {
   double dtau_;
   UnsteadyLoads& flow_;
   TimeMarchingOptions options_;
-  Eigen::MatrixXd weight_;                    // blkdiag(K, M)
-  Eigen::MatrixXd response_;                  // J ~ df/dy within a step, m x 2m
-  std::vector<std::vector<double>> history_;  // newest first
-  std::vector<Eigen::VectorXd> forces_;       // of the steps taken, newest first
+  Eigen::MatrixXd weight_;  // blkdiag(K, M)
+  TimeMarchingMemory memory_;
+  std::vector<std::vector<double>> history_;  // newest first, one more than the order
 };
 
 }  // namespace wingbeat

@@ -182,6 +182,36 @@ TEST(DualTime, GoesOnFromItsHistoryAsIfNothingHadHappened) {
   }
 }
 
+// With what is kept over steps, too, to round-off of the factors' pivots by Newton's method, and bit for bit
+// by cycles; without it, to the tolerance.
+TEST(DualTime, GoesOnFromItsMemoryAsIfNothingHadHappened) {
+  SteadyLevel steady;
+  for (const bool by_cycles : {false, true}) {
+    const DualTimeOptions options{.tolerance = 1e-3, .by_cycles = by_cycles};
+    const ForcedMotion motion = pitching(1.0);
+    const auto ignore = [](int, const MotionState&, const DualTimeResult&) {};
+    DualTime<2> through(steady.level(), options);
+    through.start({steady.level().w});
+    march(through, motion, 64, 0, 6, ignore);
+    const auto kept = through.history();
+    const DualTimeMemory memory = through.memory();
+    march(through, motion, 64, 6, 12, ignore);
+    const auto difference = [&](bool with_memory) {
+      DualTime<2> resumed(steady.level(), options);
+      resumed.start(kept);
+      if (with_memory) resumed.resume(memory);
+      march(resumed, motion, 64, 6, 12, ignore);
+      return largest_difference(steady.level().comm(), through.w(), resumed.w());
+    };
+    if (by_cycles) {
+      EXPECT_EQ(difference(true), 0.0);
+    } else {
+      EXPECT_LE(difference(true), 1e-12);
+      EXPECT_GE(difference(false), 1e-9) << "there was nothing to remember";
+    }
+  }
+}
+
 // A motion no gas can follow: a status, and the flow that was.
 TEST(DualTime, ReportsFailureAndKeepsAFlow) {
   SteadyLevel steady;

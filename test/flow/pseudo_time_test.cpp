@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "test/flow/multigrid_case.hpp"
 
 namespace wingbeat {
@@ -65,6 +67,57 @@ TEST_F(PseudoTime, RetreatsToAShorterStepThatConverges) {
   EXPECT_GE(result.retreats, 3);
   EXPECT_DOUBLE_EQ(result.cfl, 100.0 * std::pow(0.5, result.retreats));
   EXPECT_NEAR(relative_residual(c, w), result.residual, 1e-6 * result.residual);
+}
+
+// Through retreats, which go back to a state of cycles before.
+TEST_F(PseudoTime, GoesOnBitForBitFromAnyCycle) {
+  PseudoTimeOptions options;
+  options.tolerance = 1e-6;
+  options.multigrid.runge_kutta.cfl = 100.0;
+  auto whole = c.flow.uniform_state();
+  const auto expected = solve(whole, options);
+  ASSERT_GE(expected.retreats, 3);
+  const auto go_on = [&](std::vector<double> w, const PseudoTimeMemory& memory) {
+    Multigrid<2> multigrid(c.flow, c.divided(), options.multigrid);
+    const auto result = pseudo_time<2>(c.flow, multigrid, w, c.motions, c.kappa, options, {}, &memory);
+    return std::tuple(w, result.cycles, result.retreats, result.cfl);
+  };
+  const std::tuple all(whole, expected.cycles, expected.retreats, expected.cfl);
+  for (const int left : {0, 1, 4, 9, 13, 40}) {
+    auto w = c.flow.uniform_state();
+    const auto begun = solve(w, options, [&](const PseudoTimeIteration& i) { return i.cycle < left; });
+    ASSERT_TRUE(begun.memory) << left;
+    EXPECT_EQ(go_on(w, *begun.memory), all) << "stopped before cycle " << left;
+    options.max_cycles = left;
+    w = c.flow.uniform_state();
+    const auto limited = solve(w, options);
+    options.max_cycles = PseudoTimeOptions{}.max_cycles;
+    ASSERT_TRUE(limited.memory) << left;
+    EXPECT_EQ(go_on(w, *limited.memory), all) << "at the limit of " << left;
+  }
+  // What the state alone cannot know: without it the way is another.
+  auto w = c.flow.uniform_state();
+  solve(w, options, [&](const PseudoTimeIteration& i) { return i.cycle < 40; });
+  EXPECT_NE(solve(w, options).cycles + 40, expected.cycles);
+}
+
+// As a checkpoint does, from the iteration, without stopping.
+TEST_F(PseudoTime, ShowsTheStateAndWhatGoesWithItAtEveryCycle) {
+  PseudoTimeOptions options;
+  options.tolerance = 1e-4;
+  auto w = c.flow.uniform_state();
+  std::vector<double> seen;
+  PseudoTimeMemory memory;
+  const auto expected = solve(w, options, [&](const PseudoTimeIteration& i) {
+    if (i.cycle != 17) return true;
+    seen.assign(i.w.begin(), i.w.end());
+    memory = {i.cycle, i.retreats, i.cfl, {i.good.begin(), i.good.end()}};
+    return true;
+  });
+  Multigrid<2> multigrid(c.flow, c.divided(), options.multigrid);
+  const auto result = pseudo_time<2>(c.flow, multigrid, seen, c.motions, c.kappa, options, {}, &memory);
+  EXPECT_EQ(seen, w);
+  EXPECT_EQ(result.cycles, expected.cycles);
 }
 
 TEST_F(PseudoTime, GivesUpAtTheLastGoodState) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <tuple>
 
 #include "structure/energy.hpp"
 #include "test/structure/coupled_case.hpp"
@@ -214,6 +215,34 @@ TEST_F(StaggeredFlutter, FailuresOfTheFlowSolver) {
     EXPECT_EQ(result.recoveries, always ? c.options.max_recoveries : 1);
     for (double value : state.w) ASSERT_TRUE(std::isfinite(value));
     if (!always) expect_same(state, c.reference.state);
+  }
+}
+
+// Also with the energy sought that has a speed, whose search has a state of its own.
+TEST_F(StaggeredFlutter, GoesOnBitForBitFromAnyIteration) {
+  const double v = c.kinematics.reduced_velocity(c.reference.state.r);
+  for (const CycleAmplitude& amplitude :
+       {CycleAmplitude(GivenEnergy{energy}), CycleAmplitude(GivenSpeed{v, 0.5 * energy})}) {
+    c.options.max_iterations = 60;
+    AeroelasticState whole;
+    const auto numbers = [](const StaggeredResult& result) {
+      return std::tuple(result.flow_cycles, result.recoveries, result.residuals.flow,
+                        result.residuals.structure);
+    };
+    const auto expected = numbers(c.solve(amplitude, whole));
+    for (const int left : {1, 23}) {
+      const auto begun = c.solve(amplitude, state, [&](const auto& at) { return at.iteration < left; });
+      ASSERT_TRUE(begun.memory);
+      StaggeredOptions rest = c.options;
+      rest.max_iterations -= left;
+      const auto result = solve_staggered<2>(c.cycle(), c.coupled.flow, c.structure, c.kinematics, amplitude,
+                                             state, rest, {}, &*begun.memory);
+      EXPECT_EQ(numbers(result), expected) << left;
+      EXPECT_EQ(state.w, whole.w);
+      EXPECT_EQ(state.y, whole.y);
+      EXPECT_EQ(state.omega, whole.omega);
+      EXPECT_EQ(state.r, whole.r);
+    }
   }
 }
 
