@@ -27,6 +27,7 @@ void CaseSettings::describe(SettingRegistry& registry) {
   registry.add_section("solver", "How the equations are solved, and how far.", solver);
   registry.add_section("pseudo_time", "Runge-Kutta multigrid cycles of the flow.", pseudo_time);
   registry.add_section("staggered", "How flow and structure take turns in the staggered method.", staggered);
+  registry.add_section("checkpoint", "How often a run writes what it can go on from.", checkpoint);
 }
 
 ResolvedCase resolve_case(const std::string& text, const std::string& path,

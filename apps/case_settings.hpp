@@ -7,6 +7,7 @@
 
 #include "adjoint/design_settings.hpp"
 #include "adjoint/gradient_settings.hpp"
+#include "apps/checkpoint_settings.hpp"
 #include "apps/sweep/sweep_settings.hpp"
 #include "core/algebra/solver_settings.hpp"
 #include "core/io/settings.hpp"
@@ -47,6 +48,7 @@ struct CaseSettings {
   SolverSettings solver;
   PseudoTimeSettings pseudo_time;
   StaggeredSettings staggered;
+  CheckpointSettings checkpoint;
 
   void describe(SettingRegistry& registry);
 };

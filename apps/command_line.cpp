@@ -50,7 +50,8 @@ void add_case_verb(CLI::App& app, const Verb& verb, CommandLine& line) {
   command->add_option("--output", line.output, "folder of the results (default ./CASENAME-VERB)")
       ->option_text("DIR");
   if (verb.can_restart)
-    command->add_option("--restart", line.restart, "solution to start from")->option_text("FILE");
+    command->add_option("--restart", line.restart, "solution to go on from, or the folder it is in")
+        ->option_text("PATH");
   command->add_option("--walltime", line.walltime, "stop after a checkpoint when this time is used up")
       ->option_text("SECONDS")
       ->check(check_seconds, "");

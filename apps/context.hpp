@@ -5,6 +5,7 @@
 #include <string>
 
 #include "apps/case_settings.hpp"
+#include "apps/checkpoints.hpp"
 #include "apps/stop_request.hpp"
 #include "core/io/log.hpp"
 #include "core/io/result.hpp"
@@ -35,8 +36,10 @@ struct Context {
   int planned_ranks;                             // of a partition: --ranks, or those that run
   Log& log;                                      // rank 0 speaks
   Timer& timer;
-  Result& result;           // findings and message are the recipe's; written by rank 0 afterwards
-  const StopRequest& stop;  // poll it where a checkpoint can be written
+  Result& result;            // findings and message are the recipe's; written by rank 0 afterwards
+  const StopRequest& stop;   // poll it where there is nothing to write
+  Checkpoints& checkpoints;  // poll it where a checkpoint can be written
+  bool is_restart_judged;    // the restart's case is compared with this one; else it is but a start
 
   // "case.toml:7: section.key", the head of a message about a key found wrong once the run has begun.
   std::string place(const std::string& key) const {

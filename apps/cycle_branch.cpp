@@ -18,6 +18,8 @@ constexpr double looseness_between = 1e4;
 // A correction that takes more iterations than this is cheaper with half the step.
 constexpr int most_iterations = 12;
 
+constexpr const char* branch_stage = "branch";
+
 // Instances of all harmonics of a field, with one harmonic more.
 std::vector<double> with_harmonic(std::span<const double> field, const TimeSpectral& time) {
   std::vector<std::complex<double>> harmonics = time.harmonics_of(field);
@@ -74,6 +76,7 @@ SolveStatus CycleBranch::begin(double energy) {
   options.amplitude_scale = std::sqrt(std::max(largest_energy_, energy));
   options.speed_scale = speed_scale * first.speed;
   options.step = context_.settings.lco.step;
+  if (const auto earlier = context_.checkpoints.recall(branch_stage)) options.step = earlier->numbers.at(0);
   options.wanted_iterations = wanted_iterations;
   // A shock passes over cells within a step: parabolas through what it leaves there lead astray.
   options.order = 1;
@@ -81,6 +84,11 @@ SolveStatus CycleBranch::begin(double energy) {
       std::move(behind), std::move(first), options,
       [this](BranchPoint& point, const BranchRow& row) { return correct(point, row); });
   return SolveStatus::converged;
+}
+
+std::optional<SolverMemory> CycleBranch::memory() const {
+  if (!follower_) return std::nullopt;
+  return SolverMemory{branch_stage, {follower_->step()}, {}};
 }
 
 bool CycleBranch::needs_harmonic(const AeroelasticState& state) const {

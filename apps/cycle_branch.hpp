@@ -25,6 +25,8 @@ class CycleBranch {
   // The cycle of that speed, if the last step went over one.
   std::optional<BranchStep> look_back_for_speed(double reduced_velocity);
 
+  // What a later run goes on with from the cycle solved last.
+  std::optional<SolverMemory> memory() const;
   // State of rest and factors that serve every cycle.
   const CycleStart& start() const { return start_; }
   // The cycle solved last, with how it was solved. After `failed`, the one that did not converge.

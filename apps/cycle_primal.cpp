@@ -145,7 +145,7 @@ bool CyclePrimal::finish(Cycles& cycles, const CycleSolution& solution, bool is_
   history_.write();
   const auto part = context_.timer.measure("output");
   cycles.status = solution.status;
-  write_solution_files(context_, level_, solution.state);
+  write_solution_files(context_, level_, solution.state, solution.memory);
   const auto entry = cycle_entry(settings_, model_, solution);
   if (is_flutter)
     context_.result.findings["flutter"] = entry;

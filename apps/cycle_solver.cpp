@@ -6,6 +6,8 @@
 #include "apps/breakdown.hpp"
 #include "apps/flow_cycles.hpp"
 #include "apps/flow_setup.hpp"
+#include "apps/memory_packing.hpp"
+#include "apps/solution_output.hpp"
 #include "core/io/progress.hpp"
 #include "core/spectral/mean_instance.hpp"
 #include "structure/energy.hpp"
@@ -77,6 +79,8 @@ CycleStart CycleSolver::restart(AeroelasticState state) {
   CycleStart start;
   start.state = std::move(state);
   start.rest = {mean_instance(start.state.w, time_), mean_instance(start.state.y, time_), 0.0, start.state.r};
+  if (const auto& memory = context_.checkpoints.memory(); memory && is_of_turns(*memory))
+    start.rest = unpacked_turns(*memory).rest;
   start.factors = unfactored(level_.comm(), level_.subdomain, state_size<2>, time_.harmonics());
   return start;
 }
@@ -120,19 +124,25 @@ AeroelasticTolerances CycleSolver::tolerances(double looseness) const {
 CycleSolution CycleSolver::solve(const std::string& stage, const CycleStart& start,
                                  const CycleAmplitude& amplitude) {
   const SolverSettings& solver = context_.settings.solver;
-  if (!solver.is_staggered())
-    return solve_coupled(stage, start, condition_of(amplitude, model_), {solver.max_newton_iterations});
+  if (!solver.is_staggered()) return solve_to_the_end(stage, start, condition_of(amplitude, model_));
   CycleSolution turns = solve_by_turns(stage, start, amplitude);
   if (solver.flow_solver() != "runge_kutta_newton" || turns.status != SolveStatus::converged) return turns;
   // Newton finishes on all rows at once, near what the turns arrived at.
   CycleCondition condition = condition_of(amplitude, model_);
   if (std::holds_alternative<GivenSpeed>(amplitude))
     condition.energy.energy = fluctuating_energy(model_, turns.state.y);
-  CycleSolution solution =
-      solve_coupled(stage, restart(turns.state), condition, {solver.max_newton_iterations});
+  CycleSolution solution = solve_to_the_end(stage, restart(turns.state), condition);
   solution.staggered_iterations = turns.staggered_iterations;
   solution.flow_cycles = turns.flow_cycles;
   return solution;
+}
+
+CycleSolution CycleSolver::solve_to_the_end(const std::string& stage, const CycleStart& start,
+                                            const CycleCondition& condition) {
+  CoupledOptions how;
+  how.max_iterations = context_.settings.solver.max_newton_iterations;
+  how.is_kept = true;
+  return solve_coupled(stage, start, condition, how);
 }
 
 CycleSolution CycleSolver::solve_coupled(const std::string& stage, const CycleStart& start,
@@ -163,7 +173,8 @@ CycleSolution CycleSolver::solve_coupled(const std::string& stage, const CycleSt
                              fmt::format("{:.2e}", residuals.structure), fmt::format("{:.6f}", now.omega),
                              fmt::format("{:.6f}", v), fmt::format("{}", i.linear_iterations)},
                             converged_fraction(first, residuals.flow, settings.solver.flow_tolerance));
-               return !context_.stop.is_set();
+               if (!how.is_kept) return !context_.stop.is_set();
+               return context_.checkpoints.goes_on([&] { write_checkpoint(context_, level_, now); });
              });
   solution.status = result.status;
   solution.state = problem.state(u);
@@ -201,13 +212,16 @@ CycleSolution CycleSolver::solve_by_turns(const std::string& stage, const CycleS
   FlowCycles cycles(context_, level_, flow);
   CycleSolution solution;
   solution.state = start.state;
+  std::optional<StaggeredMemory> earlier;
+  if (auto memory = context_.checkpoints.recall(turns_stage(stage)))
+    earlier = unpacked_turns(*std::move(memory)).staggered;
   Progress progress(
       context_.log,
       fmt::format("{}, staggered, Runge-Kutta on {} meshes", stage, cycles.multigrid().levels()),
       {"iter", "|R|", "|S|", "omega", "V", "relaxation"});
   double first = 0.0;
   BreakdownWatch watch(context_, level_);
-  const StaggeredResult result = solve_staggered<2>(
+  StaggeredResult result = solve_staggered<2>(
       [&](std::span<double> w, std::span<const MotionState> motions, double kappa) {
         cycles.multigrid().cycle(w, motions, kappa, cycles.step());
         watch.look(w);
@@ -216,7 +230,7 @@ CycleSolution CycleSolver::solve_by_turns(const std::string& stage, const CycleS
       settings.staggered.options(target),
       [&](const StaggeredIteration& i) {
         history_.staggered(stage, i);
-        if (i.iteration == 0) first = i.residuals.flow;
+        if (first == 0.0) first = i.residuals.flow;
         const double fraction = converged_fraction(first, i.residuals.flow, target.flow);
         if (i.iteration % steps_a_line == 0)
           progress.row({fmt::format("{}", i.iteration), fmt::format("{:.2e}", i.residuals.flow),
@@ -225,12 +239,17 @@ CycleSolution CycleSolver::solve_by_turns(const std::string& stage, const CycleS
                        fraction);
         else
           progress.show(fraction);
-        return !context_.stop.is_set();
-      });
+        return context_.checkpoints.goes_on([&] {
+          write_checkpoint(context_, level_, solution.state,
+                           packed(turns_stage(stage), i.memory(), start.rest));
+        });
+      },
+      earlier ? &*earlier : nullptr);
   solution.status = result.status;
   solution.residuals = result.residuals;
   solution.staggered_iterations = result.iterations;
   solution.flow_cycles = result.flow_cycles;
+  if (result.memory) solution.memory = packed(turns_stage(stage), *std::move(result.memory), start.rest);
   std::vector<MotionState> motions;
   for (std::size_t n = 0; n < solution.state.y.size(); n += 4)
     motions.push_back(section_kinematics(settings).motion(

@@ -35,12 +35,14 @@ struct CycleSolution {
   int flow_cycles = 0;
   std::vector<Loads<double>> loads;  // of every instance
   std::optional<CycleTangent> tangent;
+  std::optional<SolverMemory> memory;  // by turns, where they were stopped
 };
 
 struct CoupledOptions {
   int max_iterations = 30;
   double looseness = 1.0;    // times the tolerances of the case
   bool with_tangent = true;  // of a cycle that converged
+  bool is_kept = false;      // on the way there, by checkpoints
 };
 
 // The period of a state.
@@ -61,6 +63,7 @@ class CycleSolver {
   // a staggered method, on a coarser one: no matrix of the level's size is then factored.
   CycleStart linear_start(LinearFlutterSolution<2>& linear, const FlutterRoot& root,
                           const FlowLevel<2>& linearized, double energy);
+  // From a solution. Turns that an earlier run left there go on from the same state of rest.
   CycleStart restart(AeroelasticState state);
   // A cycle of a case like this one, about the level's steady flow where the section rests undeflected.
   CycleStart moved(AeroelasticState cycle, double energy);
@@ -81,6 +84,8 @@ class CycleSolver {
   CycleSolution solve_by_turns(const std::string& stage, const CycleStart& start,
                                const CycleAmplitude& amplitude);
   AeroelasticTolerances tolerances(double looseness = 1.0) const;
+  CycleSolution solve_to_the_end(const std::string& stage, const CycleStart& start,
+                                 const CycleCondition& condition);
 
   Context& context_;
   FlowLevel<2>& level_;

@@ -3,7 +3,7 @@
 #include <iterator>
 
 #include "apps/flutter_starts.hpp"
-#include "apps/solution_output.hpp"
+#include "apps/restart.hpp"
 #include "apps/steady_stage.hpp"
 
 namespace wingbeat {

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "apps/breakdown.hpp"
+#include "apps/memory_packing.hpp"
 #include "core/io/error.hpp"
 #include "core/io/progress.hpp"
 
@@ -31,13 +34,16 @@ FlowCycles::FlowCycles(Context& context, const FlowLevel<2>& level, FlowEquation
 std::vector<double> FlowCycles::start(const std::vector<MotionState>& motions, double kappa) {
   if (!context_.settings.pseudo_time.full_multigrid) return flow_.uniform_state();
   const auto part = context_.timer.measure("full multigrid");
-  return full_multigrid_start<2>(flow_, {level_.mesh, level_.partition}, motions, kappa, options_,
-                                 [&](const PseudoTimeIteration&) { return !context_.stop.is_set(); });
+  std::vector<double> w =
+      full_multigrid_start<2>(flow_, {level_.mesh, level_.partition}, motions, kappa, options_,
+                              [&](const PseudoTimeIteration&) { return !context_.stop.is_set(); });
+  if (context_.stop.is_set()) throw stopped_too_early();
+  return w;
 }
 
 PseudoTimeResult FlowCycles::solve(std::vector<double>& w, const std::vector<MotionState>& motions,
-                                   double kappa, double tolerance, const std::string& stage,
-                                   History& history) {
+                                   double kappa, double tolerance, const std::string& stage, History& history,
+                                   const Save& save) {
   const auto part = context_.timer.measure("cycles");
   options_.tolerance = tolerance;
   const std::string title =
@@ -45,11 +51,13 @@ PseudoTimeResult FlowCycles::solve(std::vector<double>& w, const std::vector<Mot
                   multigrid_.levels(), multigrid_.levels() == 1 ? "" : "es");
   Progress progress(context_.log, title, {"cycle", "|R|", "CFL"});
   BreakdownWatch watch(context_, level_);
+  std::optional<PseudoTimeMemory> earlier;
+  if (auto memory = context_.checkpoints.recall(stage)) earlier = unpacked_pseudo_time(*std::move(memory));
   double first = 0.0;
-  int retreats = 0;
-  return pseudo_time<2>(flow_, multigrid_, w, motions, kappa, options_, [&](const PseudoTimeIteration& i) {
+  int retreats = earlier ? earlier->retreats : 0;
+  const auto observe = [&](const PseudoTimeIteration& i) {
     history.cycle(stage, i);
-    if (i.cycle == 0) first = i.residual;
+    if (first == 0.0) first = i.residual;
     watch.look(w);
     if (i.retreats > retreats)
       context_.log.line("  diverged: back to the last good state, CFL number {:.3g}", i.cfl);
@@ -61,8 +69,23 @@ PseudoTimeResult FlowCycles::solve(std::vector<double>& w, const std::vector<Mot
           fraction);
     else
       progress.show(fraction);
-    return !context_.stop.is_set();
-  });
+    return context_.checkpoints.goes_on([&] {
+      save({i.w.begin(), i.w.end()},
+           packed(stage, PseudoTimeMemory{i.cycle, i.retreats, i.cfl, {i.good.begin(), i.good.end()}}));
+    });
+  };
+  return pseudo_time<2>(flow_, multigrid_, w, motions, kappa, options_, observe,
+                        earlier ? &*earlier : nullptr);
+}
+
+SolveFailure stopped_too_early() {
+  return {SolveStatus::interrupted,
+          "stopped by a signal or --walltime before the finest mesh was reached; begin anew"};
+}
+
+std::optional<SolverMemory> memory_of(const std::string& stage, PseudoTimeResult& result) {
+  if (!result.memory) return std::nullopt;
+  return packed(stage, *std::exchange(result.memory, std::nullopt));
 }
 
 std::string cycles_advice(SolveStatus status, double tolerance, const PseudoTimeSettings& settings) {

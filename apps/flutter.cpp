@@ -51,12 +51,13 @@ SolveStatus run_flutter(Context& context) {
   history.write();
 
   const auto part = context.timer.measure("output");
-  write_solution_files(context, level, solutions.front().state);
+  write_solution_files(context, level, solutions.front().state, solutions.front().memory);
   auto points = nlohmann::ordered_json::array();
   for (const CycleSolution& solution : solutions) {
     points.push_back(cycle_entry(settings, model, solution));
     if (points.size() > 1)
-      write_further_solution(context, level, solution.state, flutter_file(static_cast<int>(points.size())));
+      write_checkpoint(context, level, solution.state, std::nullopt,
+                       flutter_file(static_cast<int>(points.size())));
   }
   context.result.findings["flutter"] = points[0];
   if (settings.flutter.wants_all_roots()) context.result.findings["flutter_points"] = points;

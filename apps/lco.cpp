@@ -8,6 +8,7 @@
 #include "apps/cycle_record.hpp"
 #include "apps/cycle_stage.hpp"
 #include "apps/flow_setup.hpp"
+#include "apps/memory_packing.hpp"
 #include "apps/solution_output.hpp"
 #include "apps/verbs.hpp"
 #include "structure/energy.hpp"
@@ -23,10 +24,10 @@ struct LcoRun {
   const History& history;
   CycleRecord& record;
 
-  void save(const CycleSolution& solution, bool is_asked) const {
+  void save(const CycleSolution& solution, bool is_asked, const std::optional<SolverMemory>& memory) const {
     history.write();
     const auto part = context.timer.measure("output");
-    write_solution_files(context, level, solution.state);
+    write_solution_files(context, level, solution.state, memory);
     const auto entry = cycle_entry(context.settings, model, solution);
     record.add(entry, solution, is_asked);
     context.result.findings["lco"] = record.asked();
@@ -105,7 +106,7 @@ class BranchWalk {
     return step == BranchStep::failed || step == BranchStep::interrupted;
   }
   bool seeks_speed() const { return lco().reduced_velocity && (!is_speed_met_ || lco().all_crossings); }
-  void save(bool is_asked) { run_.save(branch_.solution(), is_asked); }
+  void save(bool is_asked) { run_.save(branch_.solution(), is_asked, branch_.memory()); }
 
   std::optional<SolveStatus> meet_speed() {
     while (seeks_speed()) {
@@ -131,9 +132,10 @@ SolveStatus follow_branch(const LcoRun& run, CycleSolver& solver, const CycleSta
   for (double energy : energies) largest = std::max(largest, energy);
   CycleBranch branch(run.context, run.model, solver, start, largest);
   const SolveStatus begun = branch.begin(first_energy);
-  run.save(branch.solution(), std::ranges::any_of(energies, [&](double energy) {
-             return CycleRecord::is_same(energy, first_energy);
-           }));
+  run.save(branch.solution(),
+           std::ranges::any_of(energies,
+                               [&](double energy) { return CycleRecord::is_same(energy, first_energy); }),
+           branch.memory());
   if (begun != SolveStatus::converged)
     return run.end(begun, cycle_advice(run.context.settings, branch.solution()));
 
@@ -154,12 +156,14 @@ SolveStatus solve_list(const LcoRun& run, CycleSolver& solver, CycleStart start,
   if (const auto& v = settings.lco.reduced_velocity)
     list.push_back(GivenSpeed{*v, energies.empty() ? first_energy : energies.back()});
   for (std::size_t i = 0; i < list.size(); ++i) {
+    const std::string stage = fmt::format("cycle {}", i + 1);
     if (const auto* given = std::get_if<GivenEnergy>(&list[i])) {
       if (run.record.has_energy(given->energy)) continue;
-      start = solver.grown(start.state, start.rest, given->energy);
+      if (!run.context.checkpoints.remembers(turns_stage(stage)))
+        start = solver.grown(start.state, start.rest, given->energy);
     }
-    const CycleSolution solution = solver.solve(fmt::format("cycle {}", i + 1), start, list[i]);
-    run.save(solution, true);
+    const CycleSolution solution = solver.solve(stage, start, list[i]);
+    run.save(solution, true, solution.memory);
     if (solution.status != SolveStatus::converged) {
       std::string why = cycle_advice(settings, solution);
       const double energy = fluctuating_energy(run.model, solution.state.y);

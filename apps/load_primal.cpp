@@ -5,7 +5,7 @@
 #include "apps/analysis_setup.hpp"
 #include "apps/flow_setup.hpp"
 #include "apps/pitch_stage.hpp"
-#include "apps/solution_output.hpp"
+#include "apps/restart.hpp"
 #include "apps/steady_stage.hpp"
 
 namespace wingbeat {

@@ -8,6 +8,8 @@
 #include "apps/flow_setup.hpp"
 #include "apps/linear_flutter_output.hpp"
 #include "apps/march_run.hpp"
+#include "apps/restart.hpp"
+#include "apps/solution_names.hpp"
 #include "apps/steady_stage.hpp"
 #include "apps/verbs.hpp"
 #include "core/io/error.hpp"
@@ -21,6 +23,7 @@ namespace {
 constexpr double least_energy = 1e-6;  // of a start that the case does not describe
 constexpr double search_share = 0.01;  // of march.small_energy, the most that a march of a search starts with
 constexpr int max_marches = 15;
+constexpr const char* stopped = "stopped by a signal or --walltime; continue with --restart solution.cgns";
 
 // What a march begins with.
 struct MarchStart {
@@ -47,9 +50,8 @@ class MarchCase {
   MarchStart from_stored(StoredSolution stored);
   RestState rest_at(double reduced_velocity);
   TimeLevels disturbed(const RestState& rest, double reduced_velocity) const;
-  double energy_of(const TimeLevels& levels, const RestState& rest) const;
-  std::optional<GrowthAtSpeed> growth_of(const MarchRun& run, const TimeLevels& start,
-                                         const RestState& rest) const;
+  double energy_of(std::span<const double> y, const RestState& rest) const;
+  std::optional<GrowthAtSpeed> growth_of(const MarchRun& run, const RestState& rest) const;
   TimeLevels shrunk(const TimeLevels& levels, const RestState& from, const RestState& to,
                     double reduced_velocity) const;
   MarchCriteria criteria() const;
@@ -99,23 +101,23 @@ TimeLevels MarchCase::disturbed(const RestState& rest, double reduced_velocity) 
   return {{rest.w}, {push}, march.time_step(), reduced_velocity, rest.y};
 }
 
-double MarchCase::energy_of(const TimeLevels& levels, const RestState& rest) const {
-  std::vector<double> departure = levels.y.front();
+double MarchCase::energy_of(std::span<const double> y, const RestState& rest) const {
+  std::vector<double> departure(y.begin(), y.end());
   for (std::size_t j = 0; j < departure.size(); ++j) departure[j] -= rest.y[j];
   return average_energy(model_, departure);
 }
 
 // Of motion that outgrew march.small_energy before its rate was known, the energy tells that it grows, and
 // the rate to no better than itself. Nothing where neither is known.
-std::optional<GrowthAtSpeed> MarchCase::growth_of(const MarchRun& run, const TimeLevels& start,
-                                                  const RestState& rest) const {
-  const double v = start.reduced_velocity, energy = energy_of(run.levels, rest);
+std::optional<GrowthAtSpeed> MarchCase::growth_of(const MarchRun& run, const RestState& rest) const {
+  const double v = run.levels.reduced_velocity, energy = energy_of(run.levels.y.front(), rest);
   const auto& growth = run.summary.assessment.growth;
   const bool is_large = energy > settings_.march.small_energy;
   if (growth && (!is_large || growth->rate > growth->rate_error))
     return GrowthAtSpeed{v, growth->rate, growth->rate_error, growth->frequency, growth->frequency_error};
   if (!is_large) return std::nullopt;
-  const double time = static_cast<double>(run.summary.time_steps) * start.dtau;
+  const double time = static_cast<double>(run.summary.time_steps) * run.levels.dtau;
+  const auto start = std::span<const double>(run.levels.progress.record).first(4);
   const double rate = 0.5 * std::log(energy / energy_of(start, rest)) / time;
   return GrowthAtSpeed{v, rate, rate, 1.0, 1.0};
 }
@@ -124,7 +126,7 @@ std::optional<GrowthAtSpeed> MarchCase::growth_of(const MarchRun& run, const Tim
 TimeLevels MarchCase::shrunk(const TimeLevels& levels, const RestState& from, const RestState& to,
                              double reduced_velocity) const {
   const double energy = std::min(least_energy, search_share * settings_.march.small_energy);
-  const double factor = std::sqrt(energy / energy_of(levels, from));
+  const double factor = std::sqrt(energy / energy_of(levels.y.front(), from));
   TimeLevels result = levels;
   result.reduced_velocity = reduced_velocity;
   result.rest_y = to.y;
@@ -136,33 +138,45 @@ TimeLevels MarchCase::shrunk(const TimeLevels& levels, const RestState& from, co
   return result;
 }
 
+MarchProgress progress_of(StoredSolution stored) {
+  using namespace solution_names;
+  return {std::move(stored.data[record_name]), std::move(stored.data[rows_name]),
+          std::move(stored.data[search_name]), std::move(stored.text[entries_name]),
+          std::move(stored.memory)};
+}
+
 // From a period, or from the levels of an earlier march.
 MarchStart MarchCase::from_stored(StoredSolution stored) {
   MarchStart start;
   AeroelasticState& state = stored.state;
-  const double v = speed(section_kinematics(settings_).reduced_velocity(state.r));
+  const double stored_v = stored.data.contains(solution_names::reduced_velocity_name)
+                              ? stored.data[solution_names::reduced_velocity_name].at(0)
+                              : section_kinematics(settings_).reduced_velocity(state.r);
   const double dtau = settings_.march.time_step();
+  const bool same_step = stored.time_step() && std::abs(*stored.time_step() - dtau) <= 1e-9 * dtau;
+  const bool goes_on = same_step && stored.memory && stored.memory->stage == march_stage(context_);
+  const double v = goes_on ? stored_v : speed(stored_v);
   const int order = settings_.march.order;
   start.levels.dtau = dtau;
   start.levels.reduced_velocity = v;
-  if (!stored.time_step) {
+  if (!stored.time_step()) {
     const TimeSpectral time((stored.instances() - 1) / 2);
     start.levels.w = periodic_history(time, state.w, state.omega, dtau, order + 1);
-    start.levels.y = periodic_history(time, state.y, state.omega, dtau, order);
+    start.levels.y = periodic_history(time, state.y, state.omega, dtau, order + 1);
     start.rest = {mean_instance(state.w, time), mean_instance(state.y, time)};
   } else {
     const std::size_t count = level_.domain.state_count();
-    const bool same_step = std::abs(*stored.time_step - dtau) <= 1e-9 * dtau;
     if (!same_step)
       context_.log.line("{}: its time step is {:.6g}, not {:.6g}: goes on from its last level alone",
-                        context_.restart->string(), *stored.time_step, dtau);
+                        context_.restart->string(), *stored.time_step(), dtau);
     for (std::size_t k = 0; k < (same_step ? static_cast<std::size_t>(stored.instances()) : 1); ++k) {
       start.levels.w.emplace_back(state.w.begin() + static_cast<std::ptrdiff_t>(k * count),
                                   state.w.begin() + static_cast<std::ptrdiff_t>((k + 1) * count));
       start.levels.y.emplace_back(state.y.begin() + static_cast<std::ptrdiff_t>(4 * k),
                                   state.y.begin() + static_cast<std::ptrdiff_t>(4 * (k + 1)));
     }
-    start.rest.y = stored.rest_y;
+    start.rest.y = stored.rest_y();
+    if (goes_on) start.levels.progress = progress_of(std::move(stored));
   }
   start.levels.rest_y = start.rest.y;
   return start;
@@ -172,7 +186,7 @@ MarchStart MarchCase::begin() {
   std::optional<MarchStart> start;
   if (context_.restart) {
     StoredSolution stored = read_stored_solution(context_, level_, *context_.restart);
-    if (stored.time_step || stored.instances() > 1)
+    if (stored.time_step() || stored.instances() > 1)
       start = from_stored(std::move(stored));
     else
       level_.w = std::move(stored.state.w);
@@ -193,13 +207,34 @@ void MarchCase::finish(const MarchRun& run) {
   print_march(context_, run.summary);
 }
 
+// Speeds whose growth is known, as a checkpoint holds them.
+std::vector<double> numbers_of(const std::vector<GrowthAtSpeed>& points) {
+  std::vector<double> numbers;
+  for (const GrowthAtSpeed& p : points)
+    numbers.insert(numbers.end(), {p.reduced_velocity, p.rate, p.rate_error, p.frequency, p.frequency_error});
+  return numbers;
+}
+
+std::vector<GrowthAtSpeed> points_of(const std::vector<double>& numbers) {
+  std::vector<GrowthAtSpeed> points;
+  for (std::size_t i = 0; i + 5 <= numbers.size(); i += 5)
+    points.push_back({numbers[i], numbers[i + 1], numbers[i + 2], numbers[i + 3], numbers[i + 4]});
+  return points;
+}
+
 SolveStatus MarchCase::find_flutter(Marcher& marcher, const MarchStart& start) {
   const double tolerance = settings_.march.velocity_tolerance;
-  GrowthBracket search(start.levels.reduced_velocity, {.tolerance = tolerance});
+  const std::vector<GrowthAtSpeed> known = points_of(start.levels.progress.search);
+  GrowthBracket search(known.empty() ? start.levels.reduced_velocity : known.front().reduced_velocity,
+                       {.tolerance = tolerance});
+  for (const GrowthAtSpeed& point : known) search.add(point);
   RestState rest = start.rest;
-  TimeLevels levels = shrunk(start.levels, rest, rest, start.levels.reduced_velocity);
+  TimeLevels levels = start.levels.progress.memory
+                          ? start.levels
+                          : shrunk(start.levels, rest, rest, start.levels.reduced_velocity);
   MarchRun run;
   auto marches = nlohmann::ordered_json::array();
+  if (!levels.progress.entries.empty()) marches = nlohmann::ordered_json::parse(levels.progress.entries);
   while (!search.is_found() && !search.is_exhausted()) {
     if (search.points().size() == max_marches) {
       context_.result.message = fmt::format(
@@ -219,7 +254,11 @@ SolveStatus MarchCase::find_flutter(Marcher& marcher, const MarchStart& start) {
     finish(run);
     const bool is_marched =
         run.status == SolveStatus::converged || run.status == SolveStatus::iteration_limit;
-    const auto point = is_marched ? growth_of(run, levels, rest) : std::nullopt;
+    if (run.status == SolveStatus::interrupted) {
+      context_.result.message = stopped;
+      return run.status;
+    }
+    const auto point = is_marched ? growth_of(run, rest) : std::nullopt;
     if (!point) {
       context_.result.message = fmt::format(
           "the march at V = {:.6f} ended without a growth rate: {}; take more march.steps_per_period, allow "
@@ -231,6 +270,9 @@ SolveStatus MarchCase::find_flutter(Marcher& marcher, const MarchStart& start) {
     const double next = search.next();
     RestState there = rest_at(next);
     levels = shrunk(run.levels, rest, there, next);
+    levels.progress = {};
+    levels.progress.search = numbers_of(search.points());
+    levels.progress.entries = marches.dump();
     rest = std::move(there);
   }
   const GrowthCrossing at = *search.crossing();
@@ -248,12 +290,16 @@ SolveStatus MarchCase::find_flutter(Marcher& marcher, const MarchStart& start) {
 }
 
 SolveStatus MarchCase::run() {
-  const MarchStart start = begin();
+  MarchStart start = begin();
   if (start.status != SolveStatus::converged) return start.status;
-  MarchTable table(context_);
+  const MarchSettings& march = settings_.march;
+  if (!context_.find_flutter && is_complete(context_, model_, start.levels, criteria(), march.until)) {
+    context_.log.line("the march has come to its end: a new one begins from its levels");
+    start.levels.progress = {};
+  }
+  MarchTable table(context_, std::move(start.levels.progress.rows));
   Marcher marcher(context_, level_, model_, table);
   if (context_.find_flutter) return find_flutter(marcher, start);
-  const MarchSettings& march = settings_.march;
   const MarchRun run = marcher.run(start.levels, start.rest, criteria(), march.until, march.snapshots);
   context_.result.findings["march"] = march_entry(settings_, run.summary);
   finish(run);
@@ -268,7 +314,7 @@ SolveStatus MarchCase::run() {
           "solution.cgns";
       break;
     case SolveStatus::interrupted:
-      context_.result.message = "stopped by a signal or --walltime; continue with --restart solution.cgns";
+      context_.result.message = stopped;
       break;
     default:
       context_.result.message =

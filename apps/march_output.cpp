@@ -18,6 +18,8 @@ constexpr const char* header =
     "time,reduced_velocity,energy,plunge,pitch_deg,plunge_rate,pitch_rate,cl,cd,cm,flow_iterations,"
     "coupling_iterations\n";
 
+constexpr std::size_t row_size = 12;
+
 [[noreturn]] void refuse_table(const Context& context) {
   throw InputError(fmt::format("{}: cannot write the file: {}", (context.output / "march.csv").string(),
                                std::strerror(errno)));
@@ -27,11 +29,15 @@ constexpr double degrees = 180.0 / std::numbers::pi;
 
 }  // namespace
 
-MarchTable::MarchTable(const Context& context) : context_(context) {
+MarchTable::MarchTable(const Context& context, std::vector<double> rows)
+    : context_(context), rows_(std::move(rows)) {
+  ensure(rows_.size() % row_size == 0, "a march goes on from whole rows");
   on_root(context.comm, [&] {
     const auto path = context.output / "march.csv";
     file_.open(path, std::ios::trunc);
     file_ << header << std::flush;
+    for (std::size_t begin = 0; begin < rows_.size(); begin += row_size)
+      write(std::span<const double>(rows_).subspan(begin, row_size));
     if (!file_) refuse_table(context);
   });
 }
@@ -41,13 +47,21 @@ void MarchTable::add(const MarchedStep& step) {
   const double pitch = section_kinematics(settings).mean_pitch + step.y[1];
   const Coefficients c = coefficients(settings, step.loads, pitch);
   on_root(context_.comm, [&] {
-    // One write a row, so that what is on disk ends with a row.
-    file_ << fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", step.time, step.reduced_velocity,
-                         step.energy, step.y[0], step.y[1] * degrees, step.y[2], step.y[3], c.cl, c.cd, c.cm,
-                         step.flow_iterations, step.coupling_iterations)
-          << std::flush;
+    const std::size_t begin = rows_.size();
+    rows_.insert(rows_.end(), {step.time, step.reduced_velocity, step.energy, step.y[0], step.y[1], step.y[2],
+                               step.y[3], c.cl, c.cd, c.cm, static_cast<double>(step.flow_iterations),
+                               static_cast<double>(step.coupling_iterations)});
+    write(std::span<const double>(rows_).subspan(begin));
     if (!file_) refuse_table(context_);
   });
+}
+
+void MarchTable::write(std::span<const double> row) {
+  // One write a row, so that what is on disk ends with a row.
+  file_ << fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", row[0], row[1], row[2], row[3],
+                       row[4] * degrees, row[5], row[6], row[7], row[8], row[9], static_cast<int>(row[10]),
+                       static_cast<int>(row[11]))
+        << std::flush;
 }
 
 nlohmann::ordered_json march_entry(const CaseSettings& settings, const MarchSummary& summary) {

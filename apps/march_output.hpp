@@ -4,6 +4,7 @@
 #include <fstream>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "apps/context.hpp"
 #include "flow/loads.hpp"
@@ -25,12 +26,17 @@ struct MarchedStep {
 // march.csv, a row a step: every row is on disk before the next step begins. Rank 0 writes.
 class MarchTable {
  public:
-  // Replaces the file of an earlier run. Collective.
-  explicit MarchTable(const Context& context);
+  // Replaces the file of an earlier run; begins with the rows of one that is gone on with. Collective.
+  explicit MarchTable(const Context& context, std::vector<double> rows = {});
   void add(const MarchedStep& step);
+  // Of all steps so far, on rank 0: numbers from which the same rows follow.
+  const std::vector<double>& rows() const { return rows_; }
 
  private:
+  void write(std::span<const double> row);
+
   const Context& context_;
+  std::vector<double> rows_;
   std::ofstream file_;
 };
 

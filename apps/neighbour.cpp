@@ -6,7 +6,8 @@
 #include <cmath>
 
 #include "apps/flow_setup.hpp"
-#include "apps/solution_output.hpp"
+#include "apps/restart.hpp"
+#include "apps/solution_names.hpp"
 
 namespace wingbeat {
 namespace {
@@ -17,7 +18,7 @@ constexpr double frequency_reach = 0.1, speed_reach = 0.3;
 StoredSolution read_in_proportion(const Context& context, const FlowLevel<2>& level,
                                   const std::filesystem::path& file) {
   StoredSolution stored = read_stored_solution(context, level, file);
-  const double ratio = context.settings.flow.mach / stored.mach;
+  const double ratio = context.settings.flow.mach / stored.data.at(solution_names::mach_name).at(0);
   constexpr std::size_t n = state_size<2>;
   for (std::size_t cell = 0; cell < stored.state.w.size(); cell += n) {
     double* w = stored.state.w.data() + cell;
@@ -50,7 +51,7 @@ std::vector<AeroelasticState> cycles_of(const Context& context, const FlowLevel<
     context.comm.broadcast(is_there);
     if (is_there == 0.0) return cycles;
     StoredSolution stored = read_in_proportion(context, level, folder / flutter_file(number));
-    if (stored.instances() == instances && !stored.time_step) cycles.push_back(std::move(stored.state));
+    if (stored.instances() == instances && !stored.time_step()) cycles.push_back(std::move(stored.state));
   }
 }
 

@@ -8,6 +8,7 @@
 #include "apps/flow_cycles.hpp"
 #include "apps/flow_setup.hpp"
 #include "apps/forced_output.hpp"
+#include "apps/restart.hpp"
 #include "apps/solution_output.hpp"
 #include "apps/steady_stage.hpp"
 #include "core/io/progress.hpp"
@@ -39,7 +40,8 @@ AeroelasticState moved_state(const CaseSettings& settings, const TimeSpectral& t
 
 // Newton with a line of progress and of history each iteration.
 ForcedFlowResult solve_with_progress(Context& context, FlowEquations<2>& flow, ForcedFlowStart& start,
-                                     const std::vector<MotionState>& motions, History& history) {
+                                     const std::vector<MotionState>& motions, History& history,
+                                     const FlowCycles::Save& save) {
   const auto part = context.timer.measure("newton");
   const ForcedFlowOptions options = forced_flow_options(context.settings.solver);
   Progress progress(context.log, "forced motion", {"iter", "|R|", "step", "linear"});
@@ -52,20 +54,25 @@ ForcedFlowResult solve_with_progress(Context& context, FlowEquations<2>& flow, F
                                     {fmt::format("{}", i.iteration), fmt::format("{:.2e}", i.residual),
                                      fmt::format("{:.2f}", i.step), fmt::format("{}", i.linear_iterations)},
                                     converged_fraction(first, i.residual, options.tolerance));
-                                return !context.stop.is_set();
+                                return context.checkpoints.goes_on([&] { save(start.w, std::nullopt); });
                               });
 }
 
+constexpr const char* cycles_stage = "pitch";
+
+// Cycles; leaves what they go on with where they have not ended.
 ForcedFlowResult solve_by_cycles(Context& context, const FlowLevel<2>& level, FlowEquations<2>& flow,
                                  std::vector<double>& w, const std::vector<MotionState>& motions,
-                                 History& history) {
+                                 History& history, const FlowCycles::Save& save,
+                                 std::optional<SolverMemory>& memory) {
   const SolverSettings& solver = context.settings.solver;
   FlowCycles cycles(context, level, flow);
   if (w.empty()) w = cycles.start(motions, kappa(context.settings));
   const double tolerance = solver.ends_with_newton() ? std::max(solver.newton_switch, solver.flow_tolerance)
                                                      : solver.flow_tolerance;
-  const PseudoTimeResult result =
-      cycles.solve(w, motions, kappa(context.settings), tolerance, "pitch", history);
+  PseudoTimeResult result =
+      cycles.solve(w, motions, kappa(context.settings), tolerance, cycles_stage, history, save);
+  memory = memory_of(cycles_stage, result);
   context.result.message = cycles_advice(result.status, tolerance, context.settings.pseudo_time);
   ForcedFlowResult forced{.status = result.status, .residual = result.residual};
   forced.cycles = result.cycles;
@@ -79,13 +86,17 @@ ForcedFlowStage solve_forced(Context& context, FlowLevel<2>& level, const TimeSp
   FlowEquations<2> flow(level.domain, level.steady.model(), time);
   const std::vector<MotionState> motions = motions_of(forced_motion(settings.pitch), time, kappa(settings));
   const bool by_cycles = solver.flow_solver() != "newton";
+  const FlowCycles::Save save = [&](std::vector<double> w, const std::optional<SolverMemory>& memory) {
+    write_checkpoint(context, level, moved_state(settings, time, std::move(w)), memory);
+  };
   ForcedFlowResult result;
-  if (by_cycles) result = solve_by_cycles(context, level, flow, start.w, motions, history);
+  std::optional<SolverMemory> memory;
+  if (by_cycles) result = solve_by_cycles(context, level, flow, start.w, motions, history, save, memory);
   if (!by_cycles || (result.status == SolveStatus::converged && solver.ends_with_newton())) {
     if (!start.factors.mean)
       start.factors = unfactored(level.comm(), level.subdomain, state_size<2>, time.harmonics());
     const int cycles = result.cycles;
-    result = solve_with_progress(context, flow, start, motions, history);
+    result = solve_with_progress(context, flow, start, motions, history, save);
     result.cycles = cycles;
     if (result.status == SolveStatus::diverged) note_breakdown(context, level, start.w);
     context.result.message = forced_advice(result.status, solver);
@@ -95,7 +106,7 @@ ForcedFlowStage solve_forced(Context& context, FlowLevel<2>& level, const TimeSp
   std::vector<Coefficients> loads;
   for (std::size_t n = 0; const Loads<double>& instance : flow.loads(start.w, motions))
     loads.push_back(coefficients(settings, instance, motions[n++].pitch));
-  write_solution_files(context, level, moved_state(settings, time, start.w));
+  write_solution_files(context, level, moved_state(settings, time, start.w), memory);
   report_forced_loads(context, time, loads, result);
   return {result.status, std::move(start)};
 }

@@ -9,6 +9,7 @@
 #include "apps/linear_flutter_output.hpp"
 #include "apps/pk_aerodynamics.hpp"
 #include "apps/pk_output.hpp"
+#include "apps/restart.hpp"
 #include "apps/steady_stage.hpp"
 #include "apps/verbs.hpp"
 #include "core/io/error.hpp"
@@ -129,6 +130,7 @@ SolveStatus run_pk(Context& context) {
   }
   FlowLevels<2> levels = make_levels<2>(context, make_plane_mesh(settings.mesh));
   FlowLevel<2>& level = *levels.back();
+  if (context.restart) level.w = read_restart(context, level, {1}).w;
   History history(context);
   const SolveStatus steady = run_steady_stage(context, levels, history, true);
   if (steady != SolveStatus::converged) return steady;

@@ -11,6 +11,7 @@
 #include "apps/breakdown.hpp"
 #include "apps/case_mesh.hpp"
 #include "apps/on_root.hpp"
+#include "apps/restart_file.hpp"
 #include "apps/timing.hpp"
 #include "apps/verbs.hpp"
 #include "apps/version.hpp"
@@ -45,6 +46,7 @@ ResolvedCase read_case(const Comm& comm, const CommandLine& command, const Verb&
 
 void prepare_output(const Comm& comm, const CommandLine& command, const ResolvedCase& resolved, Log& log) {
   on_root(comm, [&] {
+    remove_unfinished(command.output);
     write_file(command.output / "case.toml", case_head(comm, command.verb, command.target) + resolved.text);
     log.copy_to(command.output / "log.txt");
   });
@@ -87,18 +89,15 @@ int execute(const Comm& comm, const CommandLine& command, Result& result, Timer&
     show_plan(verb, resolved, log);
     return exit_converged;
   }
-  if (command.restart)
-    on_root(comm, [&] {
-      if (!fs::is_regular_file(*command.restart))
-        throw InputError(fmt::format("command line: --restart {}: no such file", command.restart->string()));
-    });
   prepare_output(comm, command, resolved, log);
+  const auto restart = restart_file(comm, command, verb, log);
   const StopRequest stop(comm, command.walltime);
+  Checkpoints checkpoints(comm, stop, resolved.settings.checkpoint, log);
   Context context{.comm = comm,
                   .settings = resolved.settings,
                   .sources = resolved.sources,
                   .output = command.output,
-                  .restart = command.restart,
+                  .restart = restart,
                   .neighbour = std::nullopt,
                   .find_flutter = command.find_flutter,
                   .check = command.check,
@@ -107,7 +106,9 @@ int execute(const Comm& comm, const CommandLine& command, Result& result, Timer&
                   .log = log,
                   .timer = timer,
                   .result = result,
-                  .stop = stop};
+                  .stop = stop,
+                  .checkpoints = checkpoints,
+                  .is_restart_judged = true};
   return exit_code_of(run_recipe(verb, context));
 }
 

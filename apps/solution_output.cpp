@@ -1,27 +1,25 @@
 #include "apps/solution_output.hpp"
 
-#include <fmt/ranges.h>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
+#include "apps/fingerprint.hpp"
 #include "apps/flow_setup.hpp"
 #include "apps/mesh_table.hpp"
 #include "apps/on_root.hpp"
+#include "apps/solution_names.hpp"
+#include "apps/version.hpp"
 #include "core/io/csv.hpp"
-#include "core/io/error.hpp"
 #include "core/mesh/solution_file.hpp"
-#include "flow/flow_fault.hpp"
 #include "partition/gather_field.hpp"
 
 namespace wingbeat {
 namespace {
 
+using namespace solution_names;
+
 constexpr int n = state_size<2>;
-constexpr std::array<const char*, n> state_names{"Density", "MomentumX", "MomentumY",
-                                                 "EnergyStagnationDensity"};
 
 SectionPosition position_of(const CaseSettings& settings, std::span<const double> y) {
   const double mean = section_kinematics(settings).mean_pitch;
@@ -82,24 +80,44 @@ Solution<2> gathered_solution(const Context& context, const FlowLevel<2>& level,
     instance.time = times[at];
     solution.instances.push_back(std::move(instance));
   }
-  solution.data["y"] = {y.begin(), y.end()};
-  solution.data["mach"] = {context.settings.flow.mach};
+  solution.data[y_name] = {y.begin(), y.end()};
+  solution.data[mach_name] = {context.settings.flow.mach};
+  solution.text = {{case_name, fingerprint(context.settings, context.sources)},
+                   {version_name, context.result.version},
+                   {commit_name, std::string(git_commit())},
+                   {verb_name, context.result.command}};
   return solution;
 }
 
-// The instances of a period, or of steady flow, and what a restart needs besides. Collective.
-Solution<2> periodic_solution(const Context& context, const FlowLevel<2>& level,
-                              const AeroelasticState& state) {
+// Adds what the solver goes on with. Collective.
+void add_memory(const Context& context, const FlowLevel<2>& level, const SolverMemory& memory,
+                Solution<2>& solution) {
+  const std::size_t slice = level.domain.state_count();
+  for (int i = 1; const std::vector<double>& field : memory.fields) {
+    const double instances =
+        context.comm.max(slice > 0 ? static_cast<double>(field.size()) / static_cast<double>(slice) : 0.0);
+    std::vector<double> whole = gather_to_root(context.comm, level.local.global_cell, field,
+                                               static_cast<int>(std::lround(instances)), n);
+    if (context.comm.is_root()) solution.data[memory_field_name(i)] = std::move(whole);
+    ++i;
+  }
+  solution.text[stage_name] = memory.stage;
+  solution.data[memory_name] = memory.numbers;
+}
+
+void write(const Context& context, const FlowLevel<2>& level, const Solution<2>& solution,
+           const std::string& name = "solution.cgns") {
+  on_root(context.comm, [&] { write_solution<2>(context.output / name, level.mesh, solution); });
+}
+
+// Times of the instances of a period; steady flow is one instance at time 0.
+std::vector<double> instance_times(const AeroelasticState& state) {
   const std::size_t instances = state.y.size() / 4;
-  const TimeSpectral time(static_cast<int>(instances - 1) / 2);
   std::vector<double> times(instances, 0.0);
-  if (state.omega > 0.0)
-    for (std::size_t i = 0; i < instances; ++i) times[i] = time.phase(static_cast<int>(i)) / state.omega;
-  Solution<2> solution = gathered_solution(context, level, state.w, state.y, times);
-  solution.data["omega"] = {state.omega};
-  solution.data["freestream_parameter"] = {state.r};
-  solution.data["reduced_velocity"] = {section_kinematics(context.settings).reduced_velocity(state.r)};
-  return solution;
+  if (state.omega <= 0.0) return times;
+  const TimeSpectral time(static_cast<int>(instances - 1) / 2);
+  for (std::size_t i = 0; i < instances; ++i) times[i] = time.phase(static_cast<int>(i)) / state.omega;
+  return times;
 }
 
 }  // namespace
@@ -120,14 +138,20 @@ void SurfaceTable::write(const Context& context) const {
   on_root(context.comm, [&] { table_.write(context.output / "surface.csv"); });
 }
 
-void write_further_solution(const Context& context, const FlowLevel<2>& level, const AeroelasticState& state,
-                            const std::string& name) {
-  const Solution<2> solution = periodic_solution(context, level, state);
-  on_root(context.comm, [&] { write_solution<2>(context.output / name, level.mesh, solution); });
+void write_checkpoint(const Context& context, const FlowLevel<2>& level, const AeroelasticState& state,
+                      const std::optional<SolverMemory>& memory, const std::string& name) {
+  const auto part = context.timer.measure("checkpoint");
+  Solution<2> solution = gathered_solution(context, level, state.w, state.y, instance_times(state));
+  solution.data[omega_name] = {state.omega};
+  solution.data[freestream_parameter_name] = {state.r};
+  solution.data[reduced_velocity_name] = {section_kinematics(context.settings).reduced_velocity(state.r)};
+  if (memory) add_memory(context, level, *memory, solution);
+  write(context, level, solution, name);
 }
 
-void write_solution_files(const Context& context, const FlowLevel<2>& level, const AeroelasticState& state) {
-  write_further_solution(context, level, state, "solution.cgns");
+void write_solution_files(const Context& context, const FlowLevel<2>& level, const AeroelasticState& state,
+                          const std::optional<SolverMemory>& memory) {
+  write_checkpoint(context, level, state, memory);
   on_root(context.comm, [&] { near_wall_nodes(level.mesh).write(context.output / "mesh.csv"); });
   const std::size_t instances = state.y.size() / 4, count = level.domain.state_count();
   const TimeSpectral time(static_cast<int>(instances - 1) / 2);
@@ -146,87 +170,26 @@ void write_time_levels(const Context& context, const FlowLevel<2>& level, const 
     y.insert(y.end(), levels.y[k].begin(), levels.y[k].end());
     times.push_back(static_cast<double>(k) * levels.dtau);
   }
+  const auto part = context.timer.measure("checkpoint");
   Solution<2> solution = gathered_solution(context, level, w, y, times);
   const double v = levels.reduced_velocity;
-  solution.data["omega"] = {0.0};
-  solution.data["freestream_parameter"] = {
+  solution.data[omega_name] = {0.0};
+  solution.data[freestream_parameter_name] = {
       std::pow(v / section_kinematics(context.settings).reference_velocity, 2)};
-  solution.data["reduced_velocity"] = {v};
-  solution.data["time_step"] = {levels.dtau};
-  solution.data["rest"] = levels.rest_y;
-  on_root(context.comm, [&] {
-    write_solution<2>(context.output / "solution.cgns", level.mesh, solution);
-    near_wall_nodes(level.mesh).write(context.output / "mesh.csv");
-  });
-}
-
-StoredSolution read_stored_solution(const Context& context, const FlowLevel<2>& level,
-                                    const std::filesystem::path& file) {
-  std::vector<double> whole, data;
-  double count = 0.0;
-  on_root(context.comm, [&] {
-    const Solution<2> solution = read_solution<2>(file, level.mesh);
-    const int held = static_cast<int>(solution.instances.size());
-    count = held;
-    for (const auto& instance : solution.instances)
-      for (const auto& zone : instance.zones)
-        for (std::size_t c = 0; c < zone.fields[0].values.size(); ++c)
-          for (const char* name : state_names) {
-            const auto field = std::find_if(zone.fields.begin(), zone.fields.end(),
-                                            [&](const SolutionField& f) { return f.name == name; });
-            if (field == zone.fields.end())
-              throw InputError(fmt::format("{}: no field {}", file.string(), name));
-            whole.push_back(field->values[c]);
-          }
-    const std::string fault = describe_fault<2>(level.mesh, whole, context.settings.flow.gamma);
-    if (!fault.empty())
-      throw InputError(fmt::format(
-          "{}: holds no flow: {}; the file is damaged: start from another one, or without --restart",
-          context.restart->string(), fault));
-    const auto value = [&](const char* name) {
-      const auto found = solution.data.find(name);
-      if (found == solution.data.end())
-        throw InputError(
-            fmt::format("{}: no restart data \"{}\"; it was not written by wingbeat", file.string(), name));
-      return found->second;
-    };
-    data = value("y");
-    data.push_back(value("omega")[0]);
-    data.push_back(value("freestream_parameter")[0]);
-    const bool is_march = solution.data.contains("time_step");
-    data.push_back(value("mach")[0]);
-    data.push_back(is_march ? value("time_step")[0] : 0.0);
-    const std::vector<double> rest = is_march ? value("rest") : std::vector<double>(4, 0.0);
-    data.insert(data.begin(), rest.begin(), rest.end());
-    if (data.size() != static_cast<std::size_t>(4 * held + 8))
-      throw InputError(fmt::format("{}: its structural state does not fit", file.string()));
-  });
-  context.comm.broadcast(count);
-  const int instances = static_cast<int>(count);
-  data.resize(static_cast<std::size_t>(4 * instances + 8));
-  context.comm.broadcast(data);
-  StoredSolution stored;
-  stored.state.w = scatter_from_root(context.comm, level.local.global_cell, whole, instances, n);
-  if (data.back() > 0.0) stored.time_step = data.back();
-  stored.rest_y.assign(data.begin(), data.begin() + 4);
-  stored.mach = data[data.size() - 2];
-  stored.state.r = data[data.size() - 3];
-  stored.state.omega = data[data.size() - 4];
-  stored.state.y.assign(data.begin() + 4, data.end() - 4);
-  return stored;
-}
-
-AeroelasticState read_restart(const Context& context, const FlowLevel<2>& level,
-                              const std::vector<int>& allowed_instances) {
-  StoredSolution stored = read_stored_solution(context, level, *context.restart);
-  if (stored.time_step)
-    throw InputError(fmt::format("{}: holds time levels of a march; only wingbeat march goes on from these",
-                                 context.restart->string()));
-  if (std::ranges::find(allowed_instances, stored.instances()) == allowed_instances.end())
-    throw InputError(
-        fmt::format("{}: holds {} instances, this run can start from {}; set time.harmonics to match",
-                    context.restart->string(), stored.instances(), fmt::join(allowed_instances, " or ")));
-  return std::move(stored.state);
+  solution.data[reduced_velocity_name] = {v};
+  solution.data[time_step_name] = {levels.dtau};
+  solution.data[rest_name] = levels.rest_y;
+  const MarchProgress& progress = levels.progress;
+  const auto add = [&](const char* name, const std::vector<double>& values) {
+    if (!values.empty()) solution.data[name] = values;
+  };
+  add(record_name, progress.record);
+  add(rows_name, progress.rows);
+  add(search_name, progress.search);
+  if (!progress.entries.empty()) solution.text[entries_name] = progress.entries;
+  if (progress.memory) add_memory(context, level, *progress.memory, solution);
+  write(context, level, solution);
+  on_root(context.comm, [&] { near_wall_nodes(level.mesh).write(context.output / "mesh.csv"); });
 }
 
 }  // namespace wingbeat

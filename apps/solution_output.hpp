@@ -14,12 +14,24 @@
 
 namespace wingbeat {
 
-// Writes solution.cgns (all instances, moved meshes, the restart data), surface.csv and mesh.csv into
-// the case's folder. Steady flow is one instance. Collective.
-void write_solution_files(const Context& context, const FlowLevel<2>& level, const AeroelasticState& state);
-// The same in a CGNS file of another name alone. Collective.
-void write_further_solution(const Context& context, const FlowLevel<2>& level, const AeroelasticState& state,
-                            const std::string& name);
+// Writes solution.cgns, or a file of another name, into the case's folder: all instances, moved meshes, and
+// what a restart needs, the solver's memory where its iteration has not ended. Steady flow is one instance.
+// Collective.
+void write_checkpoint(const Context& context, const FlowLevel<2>& level, const AeroelasticState& state,
+                      const std::optional<SolverMemory>& memory = {},
+                      const std::string& name = "solution.cgns");
+// The same at the end of a stage, with surface.csv and mesh.csv. Collective.
+void write_solution_files(const Context& context, const FlowLevel<2>& level, const AeroelasticState& state,
+                          const std::optional<SolverMemory>& memory = {});
+
+// How far a march has come, beside its levels.
+struct MarchProgress {
+  std::vector<double> record;  // structural states from its start on: [step][state]
+  std::vector<double> rows;    // of march.csv; rank 0
+  std::vector<double> search;  // with --find-flutter: speeds done with, as its recipe keeps them
+  std::string entries;         // and what result.json says of them
+  std::optional<SolverMemory> memory;
+};
 
 // Time levels of a march, newest first, dtau apart. Instances of solution.cgns are in the same order, their
 // time counts back from the end of the march.
@@ -29,6 +41,7 @@ struct TimeLevels {
   double dtau = 0.0;
   double reduced_velocity = 0.0;
   std::vector<double> rest_y;  // the section at rest at that speed
+  MarchProgress progress{};
 };
 // Writes solution.cgns and mesh.csv. Collective.
 void write_time_levels(const Context& context, const FlowLevel<2>& level, const TimeLevels& levels);
@@ -47,22 +60,5 @@ class SurfaceTable {
   CsvTable table_;
   long instances_ = 0;
 };
-
-// What solution.cgns of an earlier run on the same mesh holds: one instance, a period, or time levels of a
-// march with their distance in time. Throws InputError when it is of another mesh. Collective.
-struct StoredSolution {
-  AeroelasticState state;
-  std::optional<double> time_step;  // of a march, whose levels then stand in place of instances
-  std::vector<double> rest_y;       // of a march
-  double mach = 0.0;
-  int instances() const { return static_cast<int>(state.y.size() / 4); }
-};
-StoredSolution read_stored_solution(const Context& context, const FlowLevel<2>& level,
-                                    const std::filesystem::path& file);
-
-// The state that solution.cgns of an earlier run on the same mesh holds. Throws InputError when it is of
-// another mesh or holds a number of instances that is not among those allowed. Collective.
-AeroelasticState read_restart(const Context& context, const FlowLevel<2>& level,
-                              const std::vector<int>& allowed_instances);
 
 }  // namespace wingbeat

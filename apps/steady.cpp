@@ -1,6 +1,6 @@
 #include "apps/case_mesh.hpp"
 #include "apps/flow_setup.hpp"
-#include "apps/solution_output.hpp"
+#include "apps/restart.hpp"
 #include "apps/steady_stage.hpp"
 #include "apps/verbs.hpp"
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "apps/advice.hpp"
 #include "apps/breakdown.hpp"
@@ -24,11 +25,16 @@ struct SteadyOutcome {
   SolveStatus status = SolveStatus::converged;
   double residual = 1.0;
   SteadyCost cost;
+  std::optional<SolverMemory> memory{};  // of cycles that have not ended
 };
 
-// Newton from mesh to mesh.
+AeroelasticState steady_state(std::vector<double> w) {
+  return {std::move(w), std::vector<double>(4, 0.0), 0.0, 1.0};
+}
+
+// Newton from mesh to mesh. `is_kept`: the last of them is the case's own, worth checkpoints.
 SteadyOutcome solve_by_newton(Context& context, FlowLevelRange<2> levels, const MotionState& motion,
-                              History& history) {
+                              History& history, bool is_kept) {
   const auto part = context.timer.measure("steady");
   const PseudoTransientOptions options = steady_options(context.settings.solver);
   std::unique_ptr<Progress> progress;
@@ -48,7 +54,10 @@ SteadyOutcome solve_by_newton(Context& context, FlowLevelRange<2> levels, const 
             {fmt::format("{}", i.iteration), fmt::format("{:.2e}", i.residual), fmt::format("{:.1e}", i.cfl),
              fmt::format("{:.2f}", i.step), fmt::format("{}", i.linear_iterations)},
             converged_fraction(1.0, i.residual, options.tolerance));
-        return !context.stop.is_set();
+        if (level + 1 < levels.size() || !is_kept || context.checkpoints.is_ahead())
+          return !context.stop.is_set();
+        return context.checkpoints.goes_on(
+            [&] { write_checkpoint(context, *levels[level], steady_state(levels[level]->w)); });
       });
   if (result.status == SolveStatus::diverged) {
     const FlowLevel<2>& finest = *levels[levels.size() - 1];
@@ -74,9 +83,15 @@ SteadyOutcome solve_by_cycles(Context& context, FlowLevels<2>& levels, const Mot
   }
   const double tolerance = solver.ends_with_newton() ? std::max(solver.newton_switch, solver.steady_target())
                                                      : solver.steady_target();
-  const PseudoTimeResult result = cycles.solve(level.w, motions, 0.0, tolerance, "steady flow", history);
+  const std::string stage = "steady flow";
+  PseudoTimeResult result =
+      cycles.solve(level.w, motions, 0.0, tolerance, stage, history,
+                   [&](std::vector<double> w, const std::optional<SolverMemory>& memory) {
+                     if (!context.checkpoints.is_ahead())
+                       write_checkpoint(context, level, steady_state(std::move(w)), memory);
+                   });
   context.result.message = cycles_advice(result.status, tolerance, context.settings.pseudo_time);
-  return {result.status, result.residual, {0, 0, 0, result.cycles}};
+  return {result.status, result.residual, {0, 0, 0, result.cycles}, memory_of(stage, result)};
 }
 
 void report_steady(Context& context, FlowLevel<2>& level, const MotionState& motion,
@@ -110,15 +125,17 @@ SolveStatus run_steady_stage(Context& context, FlowLevels<2>& levels, History& h
   SteadyOutcome solved;
   if (context.neighbour && level.w.empty()) level.w = neighbouring_flow(context, level);
   if (solver.flow_solver() == "newton") {
-    solved = solve_by_newton(context, all, motion, history);
+    solved = solve_by_newton(context, all, motion, history, true);
     context.result.message = steady_advice(solved.status, solver);
   } else {
-    if (needs_coarse_levels && levels.size() > 1)
-      solve_by_newton(context, all.first(levels.size() - 1), motion, history);
+    if (needs_coarse_levels && levels.size() > 1) {
+      const auto coarse = solve_by_newton(context, all.first(levels.size() - 1), motion, history, false);
+      if (coarse.status == SolveStatus::interrupted && level.w.empty()) throw stopped_too_early();
+    }
     solved = solve_by_cycles(context, levels, motion, history);
     if (solved.status == SolveStatus::converged && solver.ends_with_newton()) {
       const int cycles = solved.cost.cycles;
-      solved = solve_by_newton(context, all.last(1), motion, history);
+      solved = solve_by_newton(context, all.last(1), motion, history, true);
       solved.cost.cycles = cycles;
       context.result.message = steady_advice(solved.status, solver);
     }
@@ -128,7 +145,8 @@ SolveStatus run_steady_stage(Context& context, FlowLevels<2>& levels, History& h
   if (solved.status == SolveStatus::interrupted)
     context.result.message = "stopped by a signal or --walltime; continue with --restart solution.cgns";
   const auto part = context.timer.measure("output");
-  write_solution_files(context, level, {level.w, std::vector<double>(4, 0.0), 0.0, 1.0});
+  if (!context.checkpoints.is_ahead())
+    write_solution_files(context, level, steady_state(level.w), solved.memory);
   report_steady(context, level, motion, solved);
   return solved.status;
 }

@@ -9,7 +9,13 @@ namespace {
 // A signal handler can reach nothing but an object of static life.
 volatile std::sig_atomic_t signal_caught = 0;
 
-void note_signal(int) { signal_caught = 1; }
+void note_signal(int signal) {
+  if (signal_caught != 0) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);  // is delivered when this handler returns
+  }
+  signal_caught = 1;
+}
 
 }  // namespace
 
@@ -22,9 +28,10 @@ StopRequest::StopRequest(const Comm& comm, std::optional<double> walltime) : com
   std::signal(SIGUSR1, note_signal);
 }
 
-bool StopRequest::is_set() const {
-  const bool is_late = deadline_ && std::chrono::steady_clock::now() >= *deadline_;
-  return comm_->any(signal_caught != 0 || is_late);
+bool StopRequest::is_set() const { return comm_->any(is_set_here()); }
+
+bool StopRequest::is_set_here() const {
+  return signal_caught != 0 || (deadline_ && std::chrono::steady_clock::now() >= *deadline_);
 }
 
 }  // namespace wingbeat

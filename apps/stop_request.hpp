@@ -7,7 +7,8 @@
 
 namespace wingbeat {
 
-// Whether a run should end early: SIGTERM or SIGUSR1 has reached a rank, or its wall time is used up.
+// Whether a run should end early: SIGTERM or SIGUSR1 has reached a rank, or its wall time is used up. A
+// second signal ends the process at once, as if it had not been caught.
 class StopRequest {
  public:
   // Catches both signals from now on. `walltime` in seconds from now; none: unlimited.
@@ -18,6 +19,8 @@ class StopRequest {
 
   // Collective: all ranks get the same answer.
   bool is_set() const;
+  // What this rank knows.
+  bool is_set_here() const;
 
  private:
   const Comm* comm_;

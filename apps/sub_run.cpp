@@ -12,6 +12,7 @@ SubRun::SubRun(Context& outer, const Comm& comm, const std::string& command, con
     : settings_(settings),
       result_{.command = command, .ranks = comm.size(), .version = outer.result.version},
       stop_(comm, outer.stop),
+      checkpoints_(comm, stop_, settings_.checkpoint, options.log ? *options.log : outer.log),
       context_{.comm = comm,
                .settings = settings_,
                .sources = outer.sources,
@@ -25,7 +26,9 @@ SubRun::SubRun(Context& outer, const Comm& comm, const std::string& command, con
                .log = options.log ? *options.log : outer.log,
                .timer = timer_,
                .result = result_,
-               .stop = stop_} {}
+               .stop = stop_,
+               .checkpoints = checkpoints_,
+               .is_restart_judged = false} {}
 
 std::string case_text(CaseSettings settings, const KeySources& sources) {
   SettingRegistry registry;

@@ -18,7 +18,8 @@ struct SubRunOptions {
 // outer one.
 class SubRun {
  public:
-  // `outer` is kept by reference. Its restart is not passed on.
+  // `outer` is kept by reference. Its restart is not passed on; one given to context() is a start, whatever
+  // case it is of.
   SubRun(Context& outer, const Comm& comm, const std::string& command, const CaseSettings& settings,
          std::filesystem::path output, SubRunOptions options = {});
   SubRun(const SubRun&) = delete;
@@ -32,10 +33,12 @@ class SubRun {
   Timer timer_;
   Result result_;
   StopRequest stop_;
+  Checkpoints checkpoints_;
   Context context_;
 };
 
-// A case as text, like the one a run leaves; keys that the outer run was not given and needs not are left out.
+// A case as text, like the one a run leaves; keys that the outer run was not given and needs not are left
+// out.
 std::string case_text(CaseSettings settings, const KeySources& sources);
 
 // Runs a verb on a case so, and leaves its folder as the verb would. Collective.

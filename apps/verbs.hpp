@@ -51,6 +51,7 @@ struct Verb {
   std::vector<std::string> (*faults)(const CaseSettings&) = nullptr;
   std::vector<std::string> (*sections_of)(const CaseSettings&) = nullptr;  // where the case decides
   std::string (*plan)(const ResolvedCase&) = nullptr;                      // what --dry-run says more
+  std::string record{};  // the file that it goes on from, where that is not solution.cgns
 };
 
 std::span<const Verb> verbs();

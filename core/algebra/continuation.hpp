@@ -76,6 +76,8 @@ class BranchFollower {
   const BranchPoint& last() const { return nodes_.back().point; }
   const BranchPoint& found() const { return found_; }
   const std::string& why() const { return why_; }
+  // The length of the next step: what a branch goes on with, beside a solution of it.
+  double step() const { return step_; }
   // True where the way goes towards greater amplitudes.
   bool grows() const;
   // Gives all solutions kept another layout.
