@@ -15,6 +15,7 @@
 #include "core/io/file.hpp"
 #include "optimize/ipopt_adapter.hpp"
 #include "optimize/optimization_program.hpp"
+#include "optimize/rank_texts.hpp"
 
 namespace wingbeat {
 namespace {
@@ -87,15 +88,6 @@ nlohmann::ordered_json record_keys(const CaseSettings& settings, const std::vect
   return values;
 }
 
-std::vector<std::string> text_lines(const std::string& text) {
-  std::vector<std::string> lines;
-  std::size_t begin = 0;
-  for (std::size_t end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1)
-    lines.push_back(text.substr(begin, end - begin));
-  if (begin < text.size()) lines.push_back(text.substr(begin));
-  return lines;
-}
-
 }  // namespace
 
 std::vector<std::string> optimize_sections(const CaseSettings& settings) {
@@ -156,14 +148,21 @@ SolveStatus run_optimize(Context& context) {
   const ShapeVariables shape(level.mesh, level.local, settings.design);
   const DesignVariables variables(settings.optimize.variables, shape, settings.design.bound);
   DesignSpace space = design_space(context, variables, shape);
-  BaselineAnalyses analyses = [&] {
+  BaselineAnalyses analyses;
+  std::string why;
+  try {
     const auto part = context.timer.measure("baseline");
-    return solve_baseline(baseline.context(), levels, shape, plans);
-  }();
+    analyses = solve_baseline(baseline.context(), levels, shape, plans);
+    if (analyses.status != SolveStatus::converged) why = baseline.result().message;
+  } catch (const SolveFailure& failure) {
+    analyses.status = failure.status();
+    why = failure.what();
+  }
   const auto worst = static_cast<SolveStatus>(
       static_cast<int>(context.comm.max(static_cast<double>(static_cast<int>(analyses.status)))));
   if (worst != SolveStatus::converged) {
-    context.result.message = "the undeformed section was not solved: " + baseline.result().message;
+    context.result.message = "the undeformed section was not solved: " +
+                             first_line(context.comm, group.get().is_root() ? why : "");
     return worst;
   }
 
@@ -186,7 +185,7 @@ SolveStatus run_optimize(Context& context) {
   try {
     service.serve(branches.tasks(), [&] {
       std::vector<std::string> earlier;
-      if (context.restart) earlier = text_lines(read_file(*context.restart));
+      if (context.restart) earlier = lines_of(read_file(*context.restart));
       EvaluationRecord record(context.output / record_name,
                               record_keys(settings, optimize_sections(settings)), service.analyses(),
                               service.outputs());

@@ -122,12 +122,6 @@ SolveStatus solve_status(OptimizerStatus status) {
   }
 }
 
-ordered_json named(const std::vector<std::string>& names, std::span<const double> values) {
-  ordered_json object = ordered_json::object();
-  for (std::size_t i = 0; i < names.size(); ++i) object[names[i]] = values[i];
-  return object;
-}
-
 ordered_json constraint_entries(const OptimizationProblem& problem, const DesignOutputs& outputs,
                                 std::span<const double> initial, std::span<const double> final,
                                 std::span<const double> multipliers) {
@@ -263,8 +257,8 @@ class OptimizationRun {
         problem_.is_single() ? problem_.objective.front().output : statement_.objective.text;
     outcome.message =
         fmt::format("{}: {} = {:.8g}, {:+.2f} % on the baseline {:.8g}, {} iterations, {} designs",
-                    to_string(result.status), name, after, before,
-                    100.0 * (after - before) / std::abs(before), iterations, record_.evaluations());
+                    to_string(result.status), name, after, 100.0 * (after - before) / std::abs(before),
+                    before, iterations, record_.evaluations());
     if (!is_done) outcome.message += "; " + result.message;
     outcome.findings = {{"objective", statement_.objective.text},
                         {"objective_initial", before},

@@ -18,12 +18,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-ordered_json named(const std::vector<std::string>& names, const std::vector<double>& values) {
-  ordered_json object = ordered_json::object();
-  for (std::size_t i = 0; i < std::min(names.size(), values.size()); ++i) object[names[i]] = values[i];
-  return object;
-}
-
 std::vector<std::string> names_of(const ordered_json& object) {
   std::vector<std::string> names;
   for (const auto& [name, value] : object.items()) names.push_back(name);
@@ -65,6 +59,12 @@ ordered_json line_of(const char* kind, std::span<const double> design, const std
 }
 
 }  // namespace
+
+ordered_json named(const std::vector<std::string>& names, std::span<const double> values) {
+  ordered_json object = ordered_json::object();
+  for (std::size_t i = 0; i < std::min(names.size(), values.size()); ++i) object[names[i]] = values[i];
+  return object;
+}
 
 EvaluationRecord::EvaluationRecord(std::filesystem::path file, ordered_json case_keys,
                                    std::vector<std::string> analyses, std::vector<std::string> outputs)

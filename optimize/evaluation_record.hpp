@@ -14,6 +14,9 @@
 
 namespace wingbeat {
 
+// An object of as many numbers as have a name.
+nlohmann::ordered_json named(const std::vector<std::string>& names, std::span<const double> values);
+
 // Every design that was looked at, a JSON line for what was found of it as it was found: "case" first, then
 // "values", "gradients" and "iteration". Numbers are written so that they read back exactly: an optimisation
 // run again asks for the same designs, finds them here, and goes on where the record ends.

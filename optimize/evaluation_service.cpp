@@ -5,28 +5,13 @@
 
 #include "core/algebra/newton.hpp"
 #include "core/io/error.hpp"
+#include "optimize/rank_texts.hpp"
 
 namespace wingbeat {
 namespace {
 
 double seconds_since(std::chrono::steady_clock::time_point begun) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-}
-
-// Texts of every rank, in rank order, on all of them.
-std::string joined(const Comm& comm, const std::string& text) {
-  std::vector<double> letters(text.begin(), text.end());
-  const std::vector<double> all = comm.gather(letters);
-  std::string whole;
-  for (const double letter : all) whole += static_cast<char>(letter);
-  return comm.broadcast(whole);
-}
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  for (std::size_t begin = 0, end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1)
-    lines.push_back(text.substr(begin, end - begin));
-  return lines;
 }
 
 // One name a line, of every group's first rank.
@@ -157,7 +142,7 @@ Evaluation EvaluationService::solve(std::span<const double> design) {
     } catch (const SolveFailure& failure) {
       result.message = failure.what();
     }
-  result.message = first_message(result.message);
+  result.message = first_line(world_, group_.is_root() ? result.message : std::string());
   result.is_solved = result.message.empty();
   world_.sum(result.values);
   world_.sum(result.seconds);
@@ -183,7 +168,7 @@ GradientEvaluation EvaluationService::differentiate(std::span<const double> desi
     } catch (const SolveFailure& failure) {
       result.message = failure.what();
     }
-  result.message = first_message(result.message);
+  result.message = first_line(world_, group_.is_root() ? result.message : std::string());
   result.is_solved = result.message.empty();
   world_.sum(flat);
   world_.sum(result.seconds);
@@ -197,13 +182,6 @@ GradientEvaluation EvaluationService::differentiate(std::span<const double> desi
 void EvaluationService::check_stop() const {
   if (is_stopped_())
     throw SolveFailure(SolveStatus::interrupted, "stopped by a signal or --walltime during the optimisation");
-}
-
-// That of the first group with one, on every rank.
-std::string EvaluationService::first_message(const std::string& own) const {
-  const auto messages =
-      lines_of(joined(world_, group_.is_root() && !own.empty() ? own + "\n" : std::string()));
-  return messages.empty() ? std::string() : messages.front();
 }
 
 }  // namespace wingbeat

@@ -46,7 +46,6 @@ class EvaluationService {
   GradientEvaluation differentiate(std::span<const double> design);
   void number_outputs();
   void check_stop() const;
-  std::string first_message(const std::string& own) const;
 
   const Comm& world_;
   const Comm& group_;
