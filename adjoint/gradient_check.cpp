@@ -1,6 +1,7 @@
 #include "adjoint/gradient_check.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -113,11 +114,14 @@ GradientCheck check_gradient(const Comm& comm, Objective<2>& objective, const De
     check.finite_difference = std::min(check.finite_difference, error);
   }
   if (variables.size() <= static_cast<std::size_t>(options.max_differences)) {
+    const auto begun = std::chrono::steady_clock::now();
     for (std::size_t i = 0; i < variables.size(); ++i) {
       std::vector<double> one(variables.size(), 0.0);
       one[i] = 1.0;
       check.differences.push_back(values.central(one, options.difference_step * variables.scale(i)));
     }
+    check.difference_seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
     check.finite_difference = worst_departure(variables, gradient, check.differences, least);
   }
   values.at(direction, 0.0);

@@ -24,6 +24,7 @@ struct GradientCheck {
   // the steps.
   std::vector<double> differences;
   double finite_difference = 0.0;
+  double difference_seconds = 0.0;  // wall time of `differences`
 };
 
 struct GradientCheckOptions {

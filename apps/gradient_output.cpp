@@ -105,7 +105,8 @@ nlohmann::ordered_json result_entry(const Context& context, const DesignVariable
   if (report.check)
     result["check"] = {{"tangent", report.check->tangent},
                        {"finite_difference", report.check->finite_difference},
-                       {"transpose", report.check->transpose}};
+                       {"transpose", report.check->transpose},
+                       {"difference_seconds", report.check->difference_seconds}};
   return result;
 }
 
