@@ -14,6 +14,7 @@ std::span<const NamedProblem> named_problems() {
       {"flutter-drag-radius",
        "maximize flutter_speed",
        {"drag <= baseline", "leading_edge_radius >= baseline"}},
+      {"drag-flutter", "minimize drag", {"flutter_speed >= 1.4 baseline"}},
       {"flutter-supercritical", "maximize flutter_speed", {"drag <= baseline", "onset_slope >= 0"}},
       {"lco-amplitude", "minimize lco_amplitude", {"drag <= baseline"}},
       {"lco-speeds", "maximize least_lco_speed", {"drag <= baseline"}}};
