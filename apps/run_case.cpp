@@ -18,6 +18,7 @@
 #include "core/io/case_file.hpp"
 #include "core/io/file.hpp"
 #include "core/io/folder_lock.hpp"
+#include "core/io/memory.hpp"
 #include "core/parallel/failure_agreement.hpp"
 
 namespace wingbeat {
@@ -71,10 +72,20 @@ void remove_old_result(const Comm& comm, const fs::path& output) {
   });
 }
 
+// The most memory that the ranks ever held, each at its own time.
+void report_memory(Context& context) {
+  constexpr double megabyte = 1e6;
+  const double own = peak_resident_bytes() / megabyte;
+  const double sum = context.comm.sum(own), largest = context.comm.max(own);
+  context.result.findings["memory"] = {{"peak_megabytes", sum}, {"largest_rank_megabytes", largest}};
+  context.log.line("memory at the most: {:.0f} MB on all ranks, {:.0f} MB on the largest", sum, largest);
+}
+
 void finish(Context& context) {
   const auto timings = gather_timings(context.comm, context.timer);
   for (const auto& timing : timings) context.result.wall_seconds.emplace_back(timing.path, timing.maximum);
   context.log.line(timing_table(timings));
+  report_memory(context);
   on_root(context.comm, [&] { context.result.write(context.output / "result.json"); });
   context.log.line("{} {}: results in {}", context.result.command, context.result.status,
                    context.output.string());

@@ -204,6 +204,17 @@ TEST_F(BadInput, MoreRanksThanCells) {
   expect_refused(run({"partition", "case.toml", "--ranks", "65", "--output", "out"}), "out", "65 ranks");
 }
 
+// The largest mesh that the ranges allow, under a limit of what the program may ask for.
+TEST_F(BadInput, MeshThatNoMemoryHolds) {
+  write("limited", "#!/bin/sh\nulimit -v 4000000\nexec '" + program_ + "' \"$@\"\n");
+  program_ = (folder_ / "limited").string();
+  std::filesystem::permissions(program_, std::filesystem::perms::owner_all);
+  const std::string message = "mesh.cells = [16384, 16384]: the mesh alone takes 20.1 GB on every rank, and ";
+  expect_refused(run_case("mesh", "[mesh]\nairfoil = \"naca0012\"\ncells = [16384, 16384]\n"), "out",
+                 message);
+  EXPECT_EQ(run({"steady", "case.toml", "--dry-run"}).exit_code, 2) << "a plan finds it, too";
+}
+
 TEST_F(BadInput, OrdinatesThatAreNotNumbers) {
   write("wing.dat", "wing\n1.0 0.0\n0.5 0.05\n0.25 nan\n0.0 0.0\n0.5 -0.05\n1.0 0.0\n");
   expect_refused(run_case("mesh", "[mesh]\nairfoil = \"wing.dat\"\n"), "out", "wing.dat:4");
