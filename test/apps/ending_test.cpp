@@ -54,7 +54,8 @@ TEST_F(CyclesEnd, WithoutAFlowWhereStepsAreTooLong) {
                              "pseudo_time.smoothing=0", "pseudo_time.max_retreats=0"},
                             2);
   EXPECT_EQ(diverged.exit_code, 1) << diverged.errors;
-  expect_ended("diverged", {"pseudo_time.max_retreats = 0", "smaller pseudo_time.cfl", "wingbeat mesh"});
+  expect_ended("diverged", {"pseudo_time.max_retreats = 0", "smaller pseudo_time.cfl", "wingbeat mesh",
+                            "the flow broke down in instance 1 of 1, block \"block-1\", cell ("});
   EXPECT_LT(result("out")["steady"]["residual"], 50.0) << "the last good state is what is left";
   // Half the number often enough is small enough.
   const auto saved = run({"steady", "case.toml", "--output", "out", "pseudo_time.cfl=60"}, 2);
