@@ -18,7 +18,7 @@ std::vector<long> board_of(const std::vector<PointState>& states) {
 SweepQueue::SweepQueue(const Comm& world, PointPlaces points, const std::vector<PointState>& states)
     : points_(std::move(points)), board_(world, board_of(states)) {}
 
-std::vector<PointState> SweepQueue::states(Board board) const {
+std::vector<PointState> SweepQueue::states_on(Board board) {
   std::vector<PointState> states;
   for (const long number : board.subspan(first_state)) states.push_back(static_cast<PointState>(number));
   return states;
@@ -28,7 +28,7 @@ std::optional<SweepQueue::Task> SweepQueue::take(std::optional<std::size_t> last
   std::optional<Task> task;
   board_.use([&](Board board) {
     if (board[stop_place] != 0) return;
-    const std::vector<PointState> now = states(board);
+    const std::vector<PointState> now = states_on(board);
     const auto point = next_point(points_, now, last);
     if (!point) return;
     task = Task{.point = *point, .start = nearest_done(points_, now, *point)};
@@ -56,13 +56,19 @@ void SweepQueue::leave() {
 SweepQueue::Count SweepQueue::count() {
   Count count;
   board_.use([&](Board board) {
-    const std::vector<PointState> now = states(board);
+    const std::vector<PointState> now = states_on(board);
     count.done = static_cast<int>(std::ranges::count(now, PointState::done));
     count.failed = static_cast<int>(std::ranges::count(now, PointState::failed));
     count.left = static_cast<int>(now.size()) - count.done - count.failed;
     count.groups = static_cast<int>(board[left_place]);
   });
   return count;
+}
+
+std::vector<PointState> SweepQueue::states() {
+  std::vector<PointState> now;
+  board_.use([&](Board board) { now = states_on(board); });
+  return now;
 }
 
 }  // namespace wingbeat

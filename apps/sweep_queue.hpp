@@ -35,10 +35,11 @@ class SweepQueue {
     int done = 0, failed = 0, left = 0, groups = 0;  // groups: that have left
   };
   Count count();
+  std::vector<PointState> states();
 
  private:
   using Board = std::span<long>;
-  std::vector<PointState> states(Board board) const;
+  static std::vector<PointState> states_on(Board board);
 
   PointPlaces points_;
   SharedBoard board_;  // a state a point; whether to stop; how many groups have left
