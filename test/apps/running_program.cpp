@@ -75,8 +75,8 @@ bool RunningProgram::has_printed(const std::string& awaited) const {
   return comes_true([&] { return output().find(awaited) != std::string::npos; });
 }
 
-bool RunningProgram::has_written(const fs::path& file) const {
-  return comes_true([&] { return fs::exists(folder_ / file); });
+bool RunningProgram::has_written(const fs::path& file, const std::string& text) const {
+  return comes_true([&] { return text_of(folder_ / file).find(text) != std::string::npos; });
 }
 
 // On one machine they are children of mpirun.

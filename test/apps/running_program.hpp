@@ -22,8 +22,8 @@ class RunningProgram {
   std::string output() const;
   // False where it ended, or a minute passed, without printing that.
   bool has_printed(const std::string& awaited) const;
-  // False where it ended, or a minute passed, without that file.
-  bool has_written(const std::filesystem::path& file) const;
+  // False where it ended, or a minute passed, without that text in the file.
+  bool has_written(const std::filesystem::path& file, const std::string& text) const;
 
   void signal_launcher(int signal) const;
   void signal_ranks(int signal) const;
