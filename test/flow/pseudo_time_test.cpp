@@ -83,7 +83,7 @@ TEST_F(PseudoTime, GoesOnBitForBitFromAnyCycle) {
     return std::tuple(w, result.cycles, result.retreats, result.cfl);
   };
   const std::tuple all(whole, expected.cycles, expected.retreats, expected.cfl);
-  for (const int left : {0, 1, 4, 9, 13, 40}) {
+  for (const int left : {0, 13, 40}) {
     auto w = c.flow.uniform_state();
     const auto begun = solve(w, options, [&](const PseudoTimeIteration& i) { return i.cycle < left; });
     ASSERT_TRUE(begun.memory) << left;
