@@ -60,11 +60,11 @@ TEST_F(FuzzedCases, AreReadOrRefused) {
 
 // The same judgement of programs that fail in each way.
 TEST_F(FuzzedCases, AreNotTakenForWellWhereTheProgramCrashesOrHangs) {
-  program_ = WINGBEAT_WITH_FAKE_VERBS;
+  program_ = std::string(WINGBEAT_WITH_FAKE_VERBS);
   fs::create_directories(folder_ / "a");
   EXPECT_EQ(fault_of("succeed", "", "a"), "");
   EXPECT_EQ(fault_of("succeed", "[", "a"), "");
-  program_ = "/bin/false";
+  program_ = std::string("/bin/false");
   expect_in("exit code 1", fault_of("steady", "", "a"));
   write("crash", "#!/bin/sh\nkill -SEGV $$\n");
   write("hang", "#!/bin/sh\nkill -XCPU $$\n");
