@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 
 #include "test/apps/fuzz.hpp"
 #include "test/apps/mutation.hpp"
@@ -27,21 +28,23 @@ class FuzzedCases : public Fuzz {
     return texts;
   }
 
+  static std::string fault_in(const End& end) {
+    if (end.hangs()) return std::string("hangs");
+    if (end.signal != 0) return std::string("killed by signal ").append(std::to_string(end.signal));
+    if (end.exit_code != 0 && end.exit_code != 2)
+      return std::string("exit code ").append(std::to_string(end.exit_code));
+    return end.exit_code == 2 && end.errors.empty() ? std::string("refused without a word") : std::string();
+  }
   std::string fault_of(const std::string& verb, const std::string& text, const std::string& subfolder) const {
     write(subfolder + "/case.toml", text);
     const End end = end_of(subfolder, {verb, "case.toml", "--dry-run"});
-    std::string fault;
-    if (end.hangs())
-      fault = "hangs";
-    else if (end.signal != 0)
-      fault = "killed by signal " + std::to_string(end.signal);
-    else if (end.exit_code != 0 && end.exit_code != 2)
-      fault = "exit code " + std::to_string(end.exit_code);
-    else if (end.exit_code == 2 && end.errors.empty())
-      fault = "refused without a word";
-    if (fault.empty()) return "";
-    return "wingbeat " + verb + " case.toml --dry-run " + fault + "\n" + end.errors.substr(0, 2000) + "\n" +
-           text.substr(0, 20000);
+    std::string fault = fault_in(end);
+    if (fault.empty()) return fault;
+    std::ostringstream report;
+    report << "wingbeat " << verb << " case.toml --dry-run " << fault << '\n'
+           << end.errors.substr(0, 2000) << '\n'
+           << text.substr(0, 20000);
+    return report.str();
   }
 
   const std::vector<std::string> verbs_{"steady", "pitch",    "flutter",  "lco",  "march",

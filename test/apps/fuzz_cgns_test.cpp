@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <fstream>
+#include <sstream>
 
 #include "test/apps/fuzz.hpp"
 #include "test/apps/mutation.hpp"
@@ -24,11 +24,17 @@ class FuzzedCgns : public Fuzz {
   std::string fault_of(const std::string& subfolder, const std::vector<std::string>& arguments,
                        const std::vector<int>& allowed) const {
     const End end = end_of(subfolder, arguments);
-    if (end.hangs()) return "hangs";
-    if (end.signal != 0) return "killed by signal " + std::to_string(end.signal) + "\n" + end.errors;
-    if (std::ranges::find(allowed, end.exit_code) == allowed.end())
-      return "exit code " + std::to_string(end.exit_code) + "\n" + end.errors;
-    return "";
+    const bool is_allowed = std::ranges::find(allowed, end.exit_code) != allowed.end();
+    if (end.signal == 0 && is_allowed) return {};
+    std::ostringstream report;
+    if (end.hangs())
+      report << "hangs";
+    else if (end.signal != 0)
+      report << "killed by signal " << end.signal;
+    else
+      report << "exit code " << end.exit_code;
+    report << '\n' << end.errors;
+    return report.str();
   }
   std::string damaged(const std::string& name, unsigned seed) const {
     Mutation mutation(seed);

@@ -18,13 +18,21 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 std::string joined(const std::vector<std::string>& lines) {
   std::string text;
-  for (const std::string& line : lines) text += line + "\n";
+  for (const std::string& line : lines) text.append(line).append("\n");
   return text;
 }
 
 std::string repeated(const std::string& part, int times) {
   std::string text;
   for (int i = 0; i < times; ++i) text += part;
+  return text;
+}
+
+// The part so many times, between a beginning and an end.
+std::string enclosed(const char* begin, const char* part, int times, const char* end) {
+  std::string text(begin);
+  text.append(repeated(part, times));
+  text.append(end);
   return text;
 }
 
@@ -91,10 +99,10 @@ const std::vector<std::string>& hostile_values() {
       "",
       "= =",
       repeated("[", 1000),
-      repeated("{a=", 300) + "1",
-      "\"" + repeated("x", 100000) + "\"",
+      enclosed("", "{a=", 300, "1"),
+      enclosed("\"", "x", 100000, "\""),
       repeated("9", 5000),
-      "[" + repeated("1, ", 20000) + "1]",
+      enclosed("[", "1, ", 20000, "1]"),
   };
   return values;
 }
@@ -118,8 +126,8 @@ const std::vector<std::string>& hostile_lines() {
                                               std::string(1, '\0'),
                                               "\xef\xbb\xbf",
                                               "\r",
-                                              repeated("a.", 500) + "a = 1",
-                                              "[" + repeated("a.", 500) + "a]",
+                                              enclosed("", "a.", 500, "a = 1"),
+                                              enclosed("[", "a.", 500, "a]"),
                                               repeated("#", 100000)};
   return lines;
 }
@@ -172,7 +180,9 @@ void Mutation::damage_case(std::string& text, const std::vector<std::string>& te
         line.insert(below(equals), 1, static_cast<char>(32 + below(96)));
       break;
     default:  // the commonest: a value, of which the checks are to be told
-      if (equals != std::string::npos) line = line.substr(0, equals) + "= " + value();
+      if (equals == std::string::npos) break;
+      line.resize(equals);
+      line.append("= ").append(value());
   }
   text = joined(lines);
 }
