@@ -47,8 +47,8 @@ class FuzzedCases : public Fuzz {
     return report.str();
   }
 
-  const std::vector<std::string> verbs_{"steady", "pitch",    "flutter",  "lco",  "march",
-                                        "pk",     "gradient", "optimize", "mesh", "partition"};
+  const std::vector<std::string> verbs_{"steady",   "pitch",    "flutter", "lco",  "march",    "pk",
+                                        "gradient", "optimize", "sweep",   "mesh", "partition"};
 };
 
 TEST_F(FuzzedCases, AreReadOrRefused) {
