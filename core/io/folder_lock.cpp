@@ -43,16 +43,18 @@ std::string host_name() {
   return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
 }
 
-// Field 22 of /proc/N/stat, counted behind the name, which may hold blanks; empty where there is none.
+// Field 22 of /proc/N/stat, counted behind the name, which may hold blanks; empty where there is none, or
+// where the process is dead and only waits for its parent to ask after it (field 3).
 std::string start_of(long process) {
   std::ifstream file(fmt::format("/proc/{}/stat", process));
   std::string text;
   std::getline(file, text);
   std::istringstream fields(text.substr(std::min(text.size(), text.rfind(')') + 1)));
-  std::string field;
-  for (int i = 3; i <= 22 && fields >> field; ++i) {
+  std::string state, field;
+  fields >> state;
+  for (int i = 4; i <= 22 && fields >> field; ++i) {
   }
-  return fields ? field : "";
+  return fields && state != "Z" ? field : "";
 }
 
 std::string text_of(const Holder& holder) {

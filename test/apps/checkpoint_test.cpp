@@ -140,7 +140,8 @@ TEST_F(Checkpoint, GoesOnWithTurnsBitForBit) {
 
 // Where Newton ends depends on where it begins, within the tolerance.
 TEST_F(Checkpoint, GoesOnWithNewtonToTheSameSolution) {
-  const Words tight{"solver.flow_tolerance=1e-12", "solver.structure_tolerance=1e-11"};
+  // Above round-off, which a residual of 1e-12 is.
+  const Words tight{"solver.flow_tolerance=4e-12", "solver.structure_tolerance=1e-11"};
   const auto whole = solve("flutter", "whole", tight);
   {
     RunningProgram running(folder_, program_, words("flutter", "part", tight + at_every_step), 2);

@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <fstream>
@@ -79,16 +80,18 @@ bool RunningProgram::has_written(const fs::path& file, const std::string& text) 
   return comes_true([&] { return text_of(folder_ / file).find(text) != std::string::npos; });
 }
 
+bool RunningProgram::is_rank(pid_t process) const {
+  std::error_code gone;
+  return fs::read_symlink(fs::path("/proc") / std::to_string(process) / "exe", gone) == fs::path(program_);
+}
+
 // On one machine they are children of mpirun.
 std::vector<pid_t> RunningProgram::ranks() const {
   const std::string task = std::to_string(launcher_);
   std::ifstream children(fs::path("/proc") / task / "task" / task / "children");
   std::vector<pid_t> found;
-  for (pid_t child = 0; children >> child;) {
-    std::error_code gone;
-    if (fs::read_symlink(fs::path("/proc") / std::to_string(child) / "exe", gone) == fs::path(program_))
-      found.push_back(child);
-  }
+  for (pid_t child = 0; children >> child;)
+    if (is_rank(child)) found.push_back(child);
   return found;
 }
 
@@ -104,6 +107,9 @@ void RunningProgram::kill() {
   for (const pid_t rank : all) ::kill(rank, SIGKILL);
   ::kill(launcher_, SIGKILL);
   finish();
+  // A killed process holds its files until it has ended.
+  for (int i = 0; i < 5000 && std::ranges::any_of(all, [&](pid_t rank) { return is_rank(rank); }); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
 }
 
 int RunningProgram::finish() {

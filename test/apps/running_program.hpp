@@ -35,6 +35,7 @@ class RunningProgram {
  private:
   template <class Condition>
   bool comes_true(const Condition& condition) const;
+  bool is_rank(pid_t process) const;
   std::vector<pid_t> ranks() const;
   bool is_running() const;
 

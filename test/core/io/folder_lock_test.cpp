@@ -71,9 +71,11 @@ TEST_F(FolderOfResults, IsTakenOverFromAProcessThatWasKilled) {
     new FolderLock(folder_, "wingbeat flutter");  // never released
     ::_exit(0);
   }
-  ::waitpid(child, nullptr, 0);
+  // Even while nobody has asked after it.
+  ::waitid(P_PID, static_cast<id_t>(child), nullptr, WEXITED | WNOWAIT);
   ASSERT_TRUE(fs::exists(file_));
   EXPECT_EQ(refusal(), "");
+  ::waitpid(child, nullptr, 0);
 }
 
 TEST_F(FolderOfResults, IsTakenOverWhereTheProcessNumberIsUsedAgain) {
