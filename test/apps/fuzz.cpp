@@ -64,6 +64,7 @@ Fuzz::End Fuzz::end_of(const std::string& subfolder, const std::vector<std::stri
 }
 
 void Fuzz::attempt_all(unsigned first, int count, const Attempt& attempt) const {
+  ::setenv("OMPI_MCA_ess_singleton_isolated", "1", 1);  // no daemon of its own for every start
   std::atomic<int> next = 0;
   std::mutex reporting;
   int wrong = 0;
@@ -76,7 +77,11 @@ void Fuzz::attempt_all(unsigned first, int count, const Attempt& attempt) const 
       if (++wrong <= most_reports) ADD_FAILURE() << "WINGBEAT_FUZZ_SEED=" << seed << ": " << fault;
     }
   };
-  { const std::array<std::jthread, 2> workers{std::jthread(work, "a"), std::jthread(work, "b")}; }
+  // More than processors: a start mostly waits.
+  {
+    const std::array<std::jthread, 4> workers{std::jthread(work, "a"), std::jthread(work, "b"),
+                                              std::jthread(work, "c"), std::jthread(work, "d")};
+  }
   EXPECT_EQ(wrong, 0) << "of " << count << " inputs";
 }
 

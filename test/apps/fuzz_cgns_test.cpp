@@ -46,14 +46,14 @@ class FuzzedCgns : public Fuzz {
 };
 
 TEST_F(FuzzedCgns, MeshesAreReadOrRefused) {
-  attempt_all(first_seed(1), attempts(250, 5000), [&](unsigned seed, const std::string& subfolder) {
+  attempt_all(first_seed(1), attempts(100, 5000), [&](unsigned seed, const std::string& subfolder) {
     write(subfolder + "/damaged.cgns", damaged("out/mesh.cgns", seed));
     return fault_of(subfolder, {"steady", "mesh.toml", "--dry-run"}, {0, 2});
   });
 }
 
 TEST_F(FuzzedCgns, SolutionsAreStartedFromOrRefused) {
-  attempt_all(first_seed(1), attempts(250, 5000), [&](unsigned seed, const std::string& subfolder) {
+  attempt_all(first_seed(1), attempts(100, 5000), [&](unsigned seed, const std::string& subfolder) {
     write(subfolder + "/damaged.cgns", damaged("out/solution.cgns", seed));
     return fault_of(subfolder,
                     {"steady", "restart.toml", "--output", "out", "--restart", "damaged.cgns",
