@@ -15,7 +15,7 @@ class FuzzedCgns : public Fuzz {
     write("case.toml", section_ + "airfoil = \"naca0012\"\ncells = [16, 4]\nblocks = 2\n" + flow_);
     ASSERT_EQ(run({"mesh", "case.toml", "--output", "out"}).exit_code, 0);
     ASSERT_EQ(run({"steady", "case.toml", "--output", "out"}).exit_code, 0);
-    for (const std::string folder : {"a", "b"}) {
+    for (const std::string folder : {"a", "b", "c", "d"}) {
       write(folder + "/mesh.toml", section_ + "file = \"damaged.cgns\"\n" + flow_);
       write(folder + "/restart.toml", read("case.toml"));
     }
