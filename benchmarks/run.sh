@@ -18,6 +18,7 @@ table=${2:-$build/benchmarks.txt}
   echo; benchmarks/march.sh "$build"
   echo; benchmarks/gradient.sh "$build"
   echo; python3 benchmarks/gradient_cost.py "$build/wingbeat"
+  echo; python3 benchmarks/sweep.py "$build/wingbeat"
   echo; python3 benchmarks/scaling_model.py "$build/wingbeat"
 } >"$table.part"
 mv "$table.part" "$table"

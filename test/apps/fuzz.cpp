@@ -64,7 +64,6 @@ Fuzz::End Fuzz::end_of(const std::string& subfolder, const std::vector<std::stri
 }
 
 void Fuzz::attempt_all(unsigned first, int count, const Attempt& attempt) const {
-  ::setenv("OMPI_MCA_ess_singleton_isolated", "1", 1);  // no daemon of its own for every start
   std::atomic<int> next = 0;
   std::mutex reporting;
   int wrong = 0;
