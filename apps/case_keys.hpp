@@ -11,8 +11,4 @@ namespace wingbeat {
 // Values of the keys of some sections as texts, "section.key" -> value: what results depend on.
 nlohmann::ordered_json key_values(const CaseSettings& settings, const std::vector<std::string>& sections);
 
-// Keys whose value in `earlier` is another than `now`, or that it lacks.
-std::vector<std::string> changed_keys(const nlohmann::ordered_json& earlier,
-                                      const nlohmann::ordered_json& now);
-
 }  // namespace wingbeat

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "apps/on_root.hpp"
 #include "core/io/error.hpp"
 #include "core/io/memory.hpp"
 #include "core/mesh/airfoil.hpp"
@@ -21,7 +22,7 @@ namespace {
 // million.
 constexpr double bytes_a_cell = 75.0;
 
-void check_memory(const std::array<int, 2>& cells) {
+void check_mesh_memory(const std::array<int, 2>& cells) {
   const double needed = bytes_a_cell * cells[0] * cells[1];
   const double available = std::min(available_bytes(), allowed_bytes());
   if (needed > available)
@@ -55,12 +56,16 @@ AnyMesh make_case_mesh(const MeshSettings& settings) {
         mesh);
     return mesh;
   }
-  check_memory(settings.cells);
+  check_mesh_memory(settings.cells);
   return built_in_mesh(settings, settings.cells, settings.stretching);
 }
 
-MultiblockMesh<2> make_plane_mesh(const MeshSettings& settings) {
-  AnyMesh mesh = make_case_mesh(settings);
+AnyMesh make_case_mesh(const Comm& comm, const MeshSettings& settings) {
+  return on_all(comm, [&] { return make_case_mesh(settings); });
+}
+
+MultiblockMesh<2> make_plane_mesh(const Comm& comm, const MeshSettings& settings) {
+  AnyMesh mesh = make_case_mesh(comm, settings);
   if (auto* plane = std::get_if<MultiblockMesh<2>>(&mesh)) return std::move(*plane);
   throw InputError(
       "mesh.file: the mesh is three-dimensional; this verb solves plane flow: give a 2-D mesh, or one a "

@@ -31,6 +31,7 @@ class Checkpoints {
   const std::optional<SolverMemory>& memory() const { return memory_; }
   bool remembers(const std::string& stage) const { return memory_ && memory_->stage == stage; }
   std::optional<SolverMemory> recall(const std::string& stage);
+  void forget() { memory_.reset(); }
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -34,6 +34,7 @@ struct Context {
   bool check;                                    // of a gradient: --check
   bool retry_failed;                             // of a sweep: --retry-failed
   int planned_ranks;                             // of a partition: --ranks, or those that run
+  int node_ranks;                                // of the whole job that share this node's memory
   Log& log;                                      // rank 0 speaks
   Timer& timer;
   Result& result;            // findings and message are the recipe's; written by rank 0 afterwards

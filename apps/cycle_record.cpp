@@ -7,9 +7,12 @@
 #include <numbers>
 #include <sstream>
 
+#include "apps/case_keys.hpp"
 #include "apps/flow_setup.hpp"
 #include "apps/on_root.hpp"
+#include "core/io/changed_keys.hpp"
 #include "core/io/csv.hpp"
+#include "core/io/error.hpp"
 #include "core/io/file.hpp"
 
 namespace wingbeat {
@@ -57,17 +60,8 @@ CsvTable::Cell cell(const ordered_json& entry, const std::string& name) {
   return entry[name].get<double>();
 }
 
-// Values of the keys that decide over a cycle.
-ordered_json physics(const CaseSettings& settings) {
-  CaseSettings copy = settings;
-  SettingRegistry registry;
-  copy.describe(registry);
-  ordered_json values;
-  for (const std::string section : {"mesh", "flow", "pitch", "structure"})
-    for (const Setting& key : registry.find(section)->keys())
-      values[section + "." + key.name] = key.value_text();
-  return values;
-}
+// Sections whose keys decide over a cycle.
+const std::vector<std::string> physics{"mesh", "flow", "pitch", "structure"};
 
 std::vector<ordered_json> lines_of(const std::string& text, const std::string& path) {
   std::vector<ordered_json> lines;
@@ -83,7 +77,8 @@ std::vector<ordered_json> lines_of(const std::string& text, const std::string& p
 
 }  // namespace
 
-CycleRecord::CycleRecord(Context& context) : context_(context), case_(physics(context.settings)) {}
+CycleRecord::CycleRecord(Context& context)
+    : context_(context), case_(key_values(context.settings, physics)) {}
 
 bool CycleRecord::is_same(double a, double b) { return std::abs(a / b - 1.0) < 1e-8; }
 
@@ -97,10 +92,7 @@ void CycleRecord::resume() {
   text = context_.comm.broadcast(text);
   if (text.empty()) return;
   std::vector<ordered_json> lines = lines_of(text, path.string());
-  std::vector<std::string> changed;
-  for (const auto& [key, value] : case_.items())
-    if (!lines.front().contains(key) || lines.front()[key] != value) changed.push_back(key);
-  if (!changed.empty())
+  if (const auto changed = changed_keys(lines.front(), case_); !changed.empty())
     throw InputError(fmt::format(
         "{}: its cycles are of a case with other values of {}; give these the values they had, or "
         "restart from a solution.cgns in another folder",

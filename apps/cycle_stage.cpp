@@ -5,18 +5,23 @@
 #include "apps/flutter_starts.hpp"
 #include "apps/restart.hpp"
 #include "apps/steady_stage.hpp"
+#include "core/spectral/mean_instance.hpp"
 
 namespace wingbeat {
 
 CycleApproach approach_cycle(Context& context, FlowLevels<2>& levels, const StructureModel& model,
-                             CycleSolver& solver, double energy, History& history) {
+                             CycleSolver& solver, double energy, History& history, bool needs_all_roots) {
   const CaseSettings& settings = context.settings;
   FlowLevel<2>& level = *levels.back();
   if (context.restart) {
-    // A periodic solution goes straight on; a steady one is where the steady flow starts.
+    // A periodic solution goes straight on; a steady one, or the mean where one cycle is not enough, is where
+    // the steady flow starts.
     AeroelasticState state = read_restart(context, level, {1, 2 * settings.time.harmonics + 1});
-    if (state.y.size() > 4) return {SolveStatus::converged, solver.restart(std::move(state)), {}};
-    level.w = std::move(state.w);
+    const bool is_periodic = state.y.size() > 4;
+    if (is_periodic && !needs_all_roots)
+      return {SolveStatus::converged, solver.restart(std::move(state)), {}};
+    level.w = is_periodic ? mean_instance(state.w, time_of(state)) : std::move(state.w);
+    if (is_periodic) context.checkpoints.forget();
   }
   const SolveStatus steady = run_steady_stage(context, levels, history, true);
   if (steady != SolveStatus::converged) return {steady, std::nullopt, {}};

@@ -5,6 +5,8 @@
 
 #include "adjoint/load_functional.hpp"
 #include "apps/case_mesh.hpp"
+#include "apps/memory_check.hpp"
+#include "core/io/memory.hpp"
 
 namespace wingbeat {
 namespace {
@@ -67,6 +69,7 @@ PartitionOptions partition_options(const CaseSettings& settings) {
 template <int Dim>
 FlowLevels<Dim> make_levels(Context& context, const MultiblockMesh<Dim>& mesh) {
   const auto part = context.timer.measure("mesh");
+  const double held = resident_bytes();
   const CaseSettings& settings = context.settings;
   const FlowLevelOptions options{partition_options(settings), subdomain_options(settings.solver)};
   FlowLevels<Dim> levels;
@@ -87,6 +90,7 @@ FlowLevels<Dim> make_levels(Context& context, const MultiblockMesh<Dim>& mesh) {
   context.log.line("{} rank{}: {} blocks, imbalance {:.1f} %, {} faces cut, {} halo cells", statistics.ranks,
                    statistics.ranks == 1 ? "" : "s", statistics.blocks, 100.0 * statistics.imbalance,
                    statistics.edge_cut, statistics.halo_cells);
+  check_memory(context, finest.mesh.cell_count(), statistics, held);
   return levels;
 }
 

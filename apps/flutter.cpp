@@ -31,12 +31,13 @@ bool is_known(const std::vector<CycleSolution>& solutions, const CycleSolution& 
 SolveStatus run_flutter(Context& context) {
   const CaseSettings& settings = context.settings;
   const StructureModel model = structure_model(typical_section(settings.structure));
-  FlowLevels<2> levels = make_levels<2>(context, make_plane_mesh(settings.mesh));
+  FlowLevels<2> levels = make_levels<2>(context, make_plane_mesh(context.comm, settings.mesh));
   FlowLevel<2>& level = *levels.back();
   History history(context);
   CycleSolver solver(context, level, model, history);
   const double energy = settings.flutter.energy;
-  const CycleApproach approach = approach_cycle(context, levels, model, solver, energy, history);
+  const CycleApproach approach =
+      approach_cycle(context, levels, model, solver, energy, history, settings.flutter.wants_all_roots());
   if (!approach.start) return approach.status;
 
   std::vector<CycleSolution> solutions{solver.solve("flutter", *approach.start, GivenEnergy{energy})};

@@ -9,6 +9,7 @@
 #include "apps/cycle_primal.hpp"
 #include "apps/flow_setup.hpp"
 #include "apps/linear_flutter_output.hpp"
+#include "core/io/error.hpp"
 
 namespace wingbeat {
 namespace {

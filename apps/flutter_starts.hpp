@@ -14,8 +14,9 @@ namespace wingbeat {
 std::vector<CycleStart> flutter_starts(Context& context, FlowLevels<2>& levels, const StructureModel& model,
                                        CycleSolver& solver, double energy);
 
-// The same beside solved cases, whose cycles take the place of linear flutter on the finest mesh. Which roots there
-// are is seen on the coarsest. Empty where a root has no cycle near it, or that mesh shows none. Collective.
+// The same beside solved cases, whose cycles take the place of linear flutter on the finest mesh. Which roots
+// there are is seen on the coarsest. Empty where a root has no cycle near it, or that mesh shows none.
+// Collective.
 std::vector<CycleStart> neighbouring_starts(Context& context, FlowLevels<2>& levels,
                                             const StructureModel& model, CycleSolver& solver, double energy);
 

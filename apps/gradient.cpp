@@ -8,6 +8,7 @@
 #include "apps/gradient_output.hpp"
 #include "apps/gradient_primal.hpp"
 #include "apps/verbs.hpp"
+#include "core/io/error.hpp"
 
 namespace wingbeat {
 namespace {
@@ -120,7 +121,7 @@ std::vector<std::string> gradient_faults(const CaseSettings& settings) {
 
 SolveStatus run_gradient(Context& context) {
   const CaseSettings& settings = context.settings;
-  FlowLevels<2> levels = make_levels<2>(context, make_plane_mesh(settings.mesh));
+  FlowLevels<2> levels = make_levels<2>(context, make_plane_mesh(context.comm, settings.mesh));
   FlowLevel<2>& level = *levels.back();
   const ShapeVariables shape(level.mesh, level.local, settings.design);
   const DesignVariables variables(settings.gradient.parameters, shape, settings.design.bound);

@@ -8,6 +8,7 @@
 #include "apps/cycle_primal.hpp"
 #include "apps/flow_setup.hpp"
 #include "apps/load_primal.hpp"
+#include "core/io/error.hpp"
 
 namespace wingbeat {
 namespace {

@@ -196,7 +196,7 @@ SolveStatus run_lco(Context& context) {
   CycleRecord record(context);
   record.resume();
   context.result.findings["lco"] = record.asked();
-  FlowLevels<2> levels = make_levels<2>(context, make_plane_mesh(settings.mesh));
+  FlowLevels<2> levels = make_levels<2>(context, make_plane_mesh(context.comm, settings.mesh));
   FlowLevel<2>& level = *levels.back();
   History history(context);
   CycleSolver solver(context, level, model, history);

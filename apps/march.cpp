@@ -38,7 +38,7 @@ class MarchCase {
       : context_(context),
         settings_(context.settings),
         model_(structure_model(typical_section(settings_.structure))),
-        levels_(make_levels<2>(context, make_plane_mesh(settings_.mesh))),
+        levels_(make_levels<2>(context, make_plane_mesh(context.comm, settings_.mesh))),
         level_(*levels_.back()),
         history_(context) {}
 

@@ -8,7 +8,7 @@
 namespace wingbeat {
 
 SolveStatus run_mesh(Context& context) {
-  const AnyMesh mesh = make_case_mesh(context.settings.mesh);
+  const AnyMesh mesh = make_case_mesh(context.comm, context.settings.mesh);
   std::visit(
       [&]<int Dim>(const MultiblockMesh<Dim>& built) {
         const MeshQuality<Dim> quality = measure_quality(built);

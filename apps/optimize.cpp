@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/case_keys.hpp"
 #include "apps/case_mesh.hpp"
 #include "apps/flow_setup.hpp"
 #include "apps/flutter_branches.hpp"
@@ -12,10 +13,11 @@
 #include "apps/optimum.hpp"
 #include "apps/sub_run.hpp"
 #include "apps/verbs.hpp"
+#include "core/io/error.hpp"
 #include "core/io/file.hpp"
+#include "core/parallel/rank_texts.hpp"
 #include "optimize/ipopt_adapter.hpp"
 #include "optimize/optimization_program.hpp"
-#include "optimize/rank_texts.hpp"
 
 namespace wingbeat {
 namespace {
@@ -76,16 +78,10 @@ DesignSpace design_space(const Context& context, const DesignVariables& variable
 }
 
 // Values of the keys that the outputs depend on.
-nlohmann::ordered_json record_keys(const CaseSettings& settings, const std::vector<std::string>& sections) {
-  CaseSettings copy = settings;
-  SettingRegistry registry;
-  copy.describe(registry);
-  nlohmann::ordered_json values;
-  for (const std::string& section : sections)
-    if (section != "optimize" && section != "partition")
-      for (const Setting& key : registry.find(section)->keys())
-        values[section + "." + key.name] = key.value_text();
-  return values;
+nlohmann::ordered_json record_keys(const CaseSettings& settings) {
+  std::vector<std::string> sections = optimize_sections(settings);
+  std::erase_if(sections, [](const std::string& name) { return name == "optimize" || name == "partition"; });
+  return key_values(settings, sections);
 }
 
 }  // namespace
@@ -143,7 +139,7 @@ SolveStatus run_optimize(Context& context) {
   SubRun baseline(context, group.get(), "optimize", settings,
                   own_group == 0 ? folder : folder / fmt::format("group-{}", own_group + 1));
   on_root(group.get(), [&] { std::filesystem::create_directories(baseline.context().output); });
-  FlowLevels<2> levels = make_levels<2>(baseline.context(), make_plane_mesh(settings.mesh));
+  FlowLevels<2> levels = make_levels<2>(baseline.context(), make_plane_mesh(context.comm, settings.mesh));
   FlowLevel<2>& level = *levels.back();
   const ShapeVariables shape(level.mesh, level.local, settings.design);
   const DesignVariables variables(settings.optimize.variables, shape, settings.design.bound);
@@ -186,8 +182,7 @@ SolveStatus run_optimize(Context& context) {
     service.serve(branches.tasks(), [&] {
       std::vector<std::string> earlier;
       if (context.restart) earlier = lines_of(read_file(*context.restart));
-      EvaluationRecord record(context.output / record_name,
-                              record_keys(settings, optimize_sections(settings)), service.analyses(),
+      EvaluationRecord record(context.output / record_name, record_keys(settings), service.analyses(),
                               service.outputs());
       if (context.restart) record.resume(earlier, context.restart->string());
       DesignOutputs outputs(service, record, derived_outputs(settings, setup.named),

@@ -23,7 +23,7 @@ std::string statistics_table(const PartitionStatistics& statistics, std::size_t 
 
 SolveStatus run_partition(Context& context) {
   const int instances = TimeSpectral(context.settings.time.harmonics).instances();
-  const AnyMesh mesh = make_case_mesh(context.settings.mesh);
+  const AnyMesh mesh = make_case_mesh(context.comm, context.settings.mesh);
   std::visit(
       [&]<int Dim>(const MultiblockMesh<Dim>& built) {
         const PartitionOptions options = partition_options(context.settings);

@@ -60,7 +60,7 @@ std::vector<std::string> pitch_faults(const CaseSettings& settings) {
 }
 
 SolveStatus run_pitch(Context& context) {
-  FlowLevels<2> levels = make_levels<2>(context, make_plane_mesh(context.settings.mesh));
+  FlowLevels<2> levels = make_levels<2>(context, make_plane_mesh(context.comm, context.settings.mesh));
   History history(context);
   const bool derivatives = context.settings.pitch.derivatives;
   const SolveStatus status = run_pitch_stage(context, levels, history, derivatives).status;

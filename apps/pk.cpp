@@ -128,7 +128,7 @@ SolveStatus run_pk(Context& context) {
     report_from_table(context, model);
     return SolveStatus::converged;
   }
-  FlowLevels<2> levels = make_levels<2>(context, make_plane_mesh(settings.mesh));
+  FlowLevels<2> levels = make_levels<2>(context, make_plane_mesh(context.comm, settings.mesh));
   FlowLevel<2>& level = *levels.back();
   if (context.restart) level.w = read_restart(context, level, {1}).w;
   History history(context);

@@ -10,6 +10,7 @@
 #include "apps/fingerprint.hpp"
 #include "apps/on_root.hpp"
 #include "apps/solution_names.hpp"
+#include "core/io/error.hpp"
 #include "core/mesh/cgns_mesh.hpp"
 #include "core/mesh/matching_cells.hpp"
 #include "core/mesh/solution_file.hpp"

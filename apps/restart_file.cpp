@@ -41,18 +41,12 @@ fs::path newest_whole(const fs::path& folder, Log& log) {
   return {};
 }
 
-fs::path file_in(const fs::path& folder, const Verb& verb, Log& log) {
-  if (verb.record.empty()) return newest_whole(folder, log);
-  const fs::path record = folder / verb.record;
-  return fs::is_regular_file(record) ? record : fs::path();
-}
-
 fs::path found(const CommandLine& command, const Verb& verb, Log& log) {
   const fs::path& given = *command.restart;
   if (fs::is_regular_file(given)) return given;
   if (!fs::is_directory(given))
     throw InputError(fmt::format("command line: --restart {}: no such file or folder", given.string()));
-  fs::path path = file_in(given, verb, log);
+  fs::path path = unfinished_run(given, verb, log);
   if (!path.empty()) {
     log.line("goes on from {}", path.string());
     return path;
@@ -66,6 +60,12 @@ fs::path found(const CommandLine& command, const Verb& verb, Log& log) {
 }
 
 }  // namespace
+
+fs::path unfinished_run(const fs::path& folder, const Verb& verb, Log& log) {
+  if (verb.record.empty()) return newest_whole(folder, log);
+  const fs::path record = folder / verb.record;
+  return fs::is_regular_file(record) ? record : fs::path();
+}
 
 std::optional<fs::path> restart_file(const Comm& comm, const CommandLine& command, const Verb& verb,
                                      Log& log) {

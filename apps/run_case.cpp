@@ -10,16 +10,20 @@
 #include "apps/advice.hpp"
 #include "apps/breakdown.hpp"
 #include "apps/case_mesh.hpp"
+#include "apps/flow_setup.hpp"
+#include "apps/memory_estimate.hpp"
 #include "apps/on_root.hpp"
 #include "apps/restart_file.hpp"
 #include "apps/timing.hpp"
 #include "apps/verbs.hpp"
 #include "apps/version.hpp"
 #include "core/io/case_file.hpp"
+#include "core/io/error.hpp"
 #include "core/io/file.hpp"
 #include "core/io/folder_lock.hpp"
 #include "core/io/memory.hpp"
 #include "core/parallel/failure_agreement.hpp"
+#include "core/parallel/node.hpp"
 
 namespace wingbeat {
 
@@ -53,15 +57,23 @@ void prepare_output(const Comm& comm, const CommandLine& command, const Resolved
   });
 }
 
-// What a run would work on. Making the mesh finds its faults, too.
-void show_plan(const Verb& verb, const ResolvedCase& resolved, Log& log) {
+// What a run would work on, and the memory that it would take. Making the mesh finds its faults, too.
+void show_plan(const Comm& comm, const Verb& verb, const ResolvedCase& resolved, Log& log) {
+  const CaseSettings& settings = resolved.settings;
   log.line(resolved.text);
   if (verb.plan) log.line("# {}", verb.plan(resolved));
-  const MeshSettings& mesh = resolved.settings.mesh;
-  if (!mesh.airfoil && !mesh.file) return;
+  if (!settings.mesh.airfoil && !settings.mesh.file) return;
+  const double process = comm.max(resident_bytes());
   std::visit(
-      [&](const auto& made) { log.line("# {} cells in {} blocks", made.cell_count(), made.zones.size()); },
-      make_case_mesh(mesh));
+      [&]<int Dim>(const MultiblockMesh<Dim>& mesh) {
+        log.line("# {} cells in {} blocks", mesh.cell_count(), mesh.zones.size());
+        const int ranks = comm.size(), instances = 2 * settings.time.harmonics + 1;
+        const auto partition = partition_mesh(mesh, ranks, partition_options(settings));
+        const auto statistics = partition_statistics(mesh, partition, instances);
+        const auto memory = estimate_memory(verb.name, settings, mesh.cell_count(), statistics, process);
+        log.line("# memory: about {}", memory_text(memory, ranks));
+      },
+      make_case_mesh(comm, settings.mesh));
 }
 
 // A result of an earlier run must not be taken for one of this run.
@@ -77,7 +89,9 @@ void report_memory(Context& context) {
   constexpr double megabyte = 1e6;
   const double own = peak_resident_bytes() / megabyte;
   const double sum = context.comm.sum(own), largest = context.comm.max(own);
-  context.result.findings["memory"] = {{"peak_megabytes", sum}, {"largest_rank_megabytes", largest}};
+  auto& memory = context.result.findings["memory"];
+  memory["peak_megabytes"] = sum;
+  memory["largest_rank_megabytes"] = largest;
   context.log.line("memory at the most: {:.0f} MB on all ranks, {:.0f} MB on the largest", sum, largest);
 }
 
@@ -97,7 +111,7 @@ int execute(const Comm& comm, const CommandLine& command, Result& result, Timer&
   const ResolvedCase resolved = read_case(comm, command, verb);
   Log log(comm.is_root());
   if (command.dry_run) {
-    show_plan(verb, resolved, log);
+    show_plan(comm, verb, resolved, log);
     return exit_converged;
   }
   prepare_output(comm, command, resolved, log);
@@ -114,6 +128,7 @@ int execute(const Comm& comm, const CommandLine& command, Result& result, Timer&
                   .check = command.check,
                   .retry_failed = command.retry_failed,
                   .planned_ranks = command.ranks.value_or(comm.size()),
+                  .node_ranks = ranks_on_node(comm),
                   .log = log,
                   .timer = timer,
                   .result = result,

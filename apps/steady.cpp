@@ -7,7 +7,7 @@
 namespace wingbeat {
 
 SolveStatus run_steady(Context& context) {
-  FlowLevels<2> levels = make_levels<2>(context, make_plane_mesh(context.settings.mesh));
+  FlowLevels<2> levels = make_levels<2>(context, make_plane_mesh(context.comm, context.settings.mesh));
   if (context.restart) levels.back()->w = read_restart(context, *levels.back(), {1}).w;
   History history(context);
   return run_steady_stage(context, levels, history);

@@ -23,6 +23,7 @@ SubRun::SubRun(Context& outer, const Comm& comm, const std::string& command, con
                .check = false,
                .retry_failed = false,
                .planned_ranks = comm.size(),
+               .node_ranks = outer.node_ranks,
                .log = options.log ? *options.log : outer.log,
                .timer = timer_,
                .result = result_,

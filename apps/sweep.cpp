@@ -81,7 +81,10 @@ class Sweep {
 };
 
 SweepOutcome Sweep::solve(const SweepQueue::Task& task) {
-  const CaseSettings settings = point_settings(case_, journal_.points(), task.point);
+  std::optional<CaseSettings> settings;
+  const std::string fault = first_failure(
+      group_.get(), failure_of([&] { settings = point_settings(case_, journal_.points(), task.point); }));
+  if (!fault.empty()) return {.status = "error", .reason = message_of(fault)};
   std::optional<Neighbour> neighbour;
   if (task.start && context_.settings.sweep.continuation) {
     neighbour = Neighbour{.folder = journal_.folder(*task.start)};
@@ -91,7 +94,7 @@ SweepOutcome Sweep::solve(const SweepQueue::Task& task) {
     }
   }
   return run_sweep_point(context_, group_.get(), agreement_,
-                         {context_.settings.sweep.verb, settings, journal_.folder(task.point), neighbour});
+                         {context_.settings.sweep.verb, *settings, journal_.folder(task.point), neighbour});
 }
 
 // This group's share of the points.
@@ -266,7 +269,7 @@ std::string sweep_plan(const ResolvedCase& sweep) {
 
 SolveStatus run_sweep(Context& context) {
   const SweepPoints points = sweep_points(context.settings.sweep);
-  sweep_plan({context.settings, {}, context.sources});
+  on_root(context.comm, [&] { sweep_plan({context.settings, {}, context.sources}); });
   if (context.settings.sweep.groups > context.comm.size())
     throw InputError(fmt::format("{} = {}: there are {} ranks; give as many groups at most",
                                  context.place("sweep.groups"), context.settings.sweep.groups,

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/mesh/cell_geometry.hpp"
 #include "core/mesh/mesh_names.hpp"
 
 namespace wingbeat {
@@ -46,18 +47,6 @@ std::optional<Fault> first_fault(std::span<const double> w, std::span<const doub
   return std::nullopt;
 }
 
-template <int Dim>
-Vec<double, Dim> centre(const Zone<Dim>& zone, const Index<Dim>& cell) {
-  Vec<double, Dim> sum{};
-  constexpr int corners = 1 << Dim;
-  for (int corner = 0; corner < corners; ++corner) {
-    Index<Dim> node = cell;
-    for (int d = 0; d < Dim; ++d) node[d] += corner >> d & 1;
-    for (int d = 0; d < Dim; ++d) sum[d] += zone.nodes(node)[d] / corners;
-  }
-  return sum;
-}
-
 // `fault.cell` counts the cells of the whole mesh.
 template <int Dim>
 std::string text_of(const MultiblockMesh<Dim>& mesh, const Fault& fault, std::size_t instances) {
@@ -70,7 +59,7 @@ std::string text_of(const MultiblockMesh<Dim>& mesh, const Fault& fault, std::si
     cell[d] = static_cast<int>(number % static_cast<std::size_t>(zone.cells[d]));
     number /= static_cast<std::size_t>(zone.cells[d]);
   }
-  const Vec<double, Dim> place = centre<Dim>(zone, cell);
+  const Vec<double, Dim> place = cell_centre<Dim>(zone, cell);
   std::string at;
   for (int d = 0; d < Dim; ++d) at += fmt::format("{} {} = {:.6g}", d == 0 ? "" : ",", "xyz"[d], place[d]);
   return fmt::format("instance {} of {}, block \"{}\", cell {} at{}: density {:.6g}, pressure {:.6g}{}",

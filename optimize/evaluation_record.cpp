@@ -10,6 +10,7 @@
 #include <limits>
 #include <sstream>
 
+#include "core/io/changed_keys.hpp"
 #include "core/io/error.hpp"
 #include "core/io/file.hpp"
 
@@ -81,9 +82,7 @@ void EvaluationRecord::resume(std::span<const std::string> lines, const std::str
   if (!head.is_object() || head.value("kind", "") != "case")
     throw InputError(fmt::format(
         "{}: is no record of an optimisation; give the evaluations.jsonl of an earlier run", path));
-  std::vector<std::string> changed;
-  for (const auto& [key, value] : head_["keys"].items())
-    if (!head["keys"].contains(key) || head["keys"][key] != value) changed.push_back(key);
+  std::vector<std::string> changed = changed_keys(head["keys"], head_["keys"]);
   if (head["outputs"] != head_["outputs"] || head["analyses"] != head_["analyses"])
     changed.push_back("optimize.objective or optimize.constraints (other outputs)");
   if (!changed.empty())

@@ -5,7 +5,7 @@
 
 #include "core/algebra/newton.hpp"
 #include "core/io/error.hpp"
-#include "optimize/rank_texts.hpp"
+#include "core/parallel/rank_texts.hpp"
 
 namespace wingbeat {
 namespace {

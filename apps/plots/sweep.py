@@ -47,6 +47,18 @@ def columns_of(table):
     return ()
 
 
+def swept_numbers(folder, count):
+    """(keys, table, solved, columns to show) of a sweep over `count` numbers; None of any other."""
+    found = read_sweep(folder)
+    if found is None:
+        return None
+    keys, table, solved = found
+    columns = columns_of(table)
+    if len(keys) != count or not columns or not all(isinstance(table[key], np.ndarray) for key in keys):
+        return None
+    return keys, table, solved, columns
+
+
 def branches_of(table, rows):
     """Rows of each branch, by its number; all of them where there are none."""
     if not isinstance(table.get("branch"), np.ndarray):

@@ -4,7 +4,7 @@ import numpy as np
 
 from style import COLOURS, plt
 from sweep import SOURCE as SWEEP
-from sweep import columns_of, label, read_sweep
+from sweep import label, swept_numbers
 
 NAME = "sweep-contour"
 SOURCE = SWEEP
@@ -26,13 +26,10 @@ def lowest_rows(table, keys, rows):
 
 
 def draw(folder):
-    found = read_sweep(folder)
+    found = swept_numbers(folder, 2)
     if found is None:
         return None
-    keys, table, solved = found
-    columns = columns_of(table)
-    if len(keys) != 2 or not columns or not all(isinstance(table[key], np.ndarray) for key in keys):
-        return None
+    keys, table, solved, columns = found
     rows = lowest_rows(table, keys, np.nonzero(solved)[0])
     x, y = table[keys[0]], table[keys[1]]
     if len(rows) < 3 or min(len(np.unique(x[rows])), len(np.unique(y[rows]))) < 2:

@@ -4,7 +4,7 @@ import numpy as np
 
 from style import COLOURS, FURTHER, plt
 from sweep import SOURCE as SWEEP
-from sweep import branches_of, columns_of, label, lowest_of, mark_failed, read_sweep, switches
+from sweep import branches_of, label, lowest_of, mark_failed, swept_numbers, switches
 
 NAME = "sweep"
 SOURCE = SWEEP
@@ -31,13 +31,10 @@ def draw_lowest(axes, key, table, branches, column):
 
 
 def draw(folder):
-    found = read_sweep(folder)
-    if found is None:
+    found = swept_numbers(folder, 1)
+    if found is None or not found[2].any():
         return None
-    keys, table, solved = found
-    columns = columns_of(table)
-    if len(keys) != 1 or not columns or not isinstance(table[keys[0]], np.ndarray) or not solved.any():
-        return None
+    keys, table, solved, columns = found
     key, rows = keys[0], np.nonzero(solved)[0]
     branches = branches_of(table, rows)
     figure, panels = plt.subplots(len(columns), 1, figsize=(7.2, 3.0 * len(columns) + 0.6), sharex=True,

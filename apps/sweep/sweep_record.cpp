@@ -12,6 +12,7 @@
 
 #include "apps/sweep/sweep_branches.hpp"
 #include "apps/sweep/sweep_points.hpp"
+#include "core/io/changed_keys.hpp"
 #include "core/io/error.hpp"
 
 namespace wingbeat {
@@ -44,10 +45,7 @@ void check_head(const SweepLine& found, const std::string& path, const SweepLine
       throw InputError(fmt::format("{}: is of a sweep of {} {}, this is one of {} {}; {}", path,
                                    found["verb"].dump(), found["parameters"].dump(), head["verb"].dump(),
                                    head["parameters"].dump(), remedy));
-  std::vector<std::string> changed;
-  for (const auto& [key, value] : head["case"].items())
-    if (!found["case"].contains(key) || found["case"][key] != value) changed.push_back(key);
-  if (!changed.empty())
+  if (const auto changed = changed_keys(found["case"], head["case"]); !changed.empty())
     throw InputError(
         fmt::format("{}: its points are of a case with other values of {}; give these the values "
                     "they had, {}",

@@ -24,6 +24,15 @@ CellCorners<Dim> cell_corners(const Zone<Dim>& zone, const Index<Dim>& cell) {
   return corners;
 }
 
+// Mean of the corners.
+template <int Dim>
+Vec<double, Dim> cell_centre(const Zone<Dim>& zone, const Index<Dim>& cell) {
+  const CellCorners<Dim> corners = cell_corners<Dim>(zone, cell);
+  Vec<double, Dim> sum{};
+  for (const Vec<double, Dim>& corner : corners) sum += corner;
+  return (1.0 / static_cast<double>(corners.size())) * sum;
+}
+
 // Edge that leaves corner c along direction d, pointing to increasing index.
 template <int Dim>
 Vec<double, Dim> corner_edge(const CellCorners<Dim>& corners, std::size_t c, int d) {

@@ -5,28 +5,22 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "core/mesh/cell_geometry.hpp"
+
 namespace wingbeat {
 namespace {
 
 template <int Dim>
-std::vector<Vec<double, Dim>> cell_means(const MultiblockMesh<Dim>& mesh) {
-  constexpr int corners = 1 << Dim;
-  std::vector<Vec<double, Dim>> means;
-  means.reserve(mesh.cell_count());
+std::vector<Vec<double, Dim>> cell_centres(const MultiblockMesh<Dim>& mesh) {
+  std::vector<Vec<double, Dim>> centres;
+  centres.reserve(mesh.cell_count());
   for (const Zone<Dim>& zone : mesh.zones)
-    for_each<Dim>(box_of<Dim>(zone.cells), [&](const Index<Dim>& cell) {
-      Vec<double, Dim> sum{};
-      for (int corner = 0; corner < corners; ++corner) {
-        Index<Dim> node = cell;
-        for (int d = 0; d < Dim; ++d) node[static_cast<std::size_t>(d)] += (corner >> d) & 1;
-        sum += zone.nodes(node);
-      }
-      means.push_back((1.0 / corners) * sum);
-    });
-  return means;
+    for_each<Dim>(box_of<Dim>(zone.cells),
+                  [&](const Index<Dim>& cell) { centres.push_back(cell_centre<Dim>(zone, cell)); });
+  return centres;
 }
 
-// Cells by the box of a fine grid in space that their means lie in.
+// Cells by the box of a fine grid in space that their centres lie in.
 template <int Dim>
 class PlaceIndex {
  public:
@@ -83,10 +77,10 @@ template <int Dim>
 std::optional<std::vector<long>> matching_cells(const MultiblockMesh<Dim>& from,
                                                 const MultiblockMesh<Dim>& to, double tolerance) {
   if (from.cell_count() != to.cell_count()) return std::nullopt;
-  const PlaceIndex<Dim> index(cell_means(from), tolerance);
+  const PlaceIndex<Dim> index(cell_centres(from), tolerance);
   std::vector<long> cells;
   std::vector<char> is_taken(from.cell_count(), 0);
-  for (const auto& place : cell_means(to)) {
+  for (const auto& place : cell_centres(to)) {
     const long cell = index.at(place);
     if (cell < 0 || is_taken[static_cast<std::size_t>(cell)]) return std::nullopt;
     is_taken[static_cast<std::size_t>(cell)] = 1;

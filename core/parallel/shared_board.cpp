@@ -1,6 +1,7 @@
 #include "core/parallel/shared_board.hpp"
 
 #include <algorithm>
+#include <exception>
 
 #include "core/parallel/mpi_call.hpp"
 
@@ -24,7 +25,7 @@ class WindowLock {
 }  // namespace
 
 SharedBoard::SharedBoard(const Comm& comm, std::span<const long> numbers)
-    : numbers_(numbers.begin(), numbers.end()) {
+    : numbers_(numbers.begin(), numbers.end()), exceptions_before_(std::uncaught_exceptions()) {
   const std::size_t held = comm.is_root() ? numbers.size() : 0;
   long* memory = nullptr;
   check_mpi(MPI_Win_allocate(static_cast<MPI_Aint>(held * sizeof(long)), sizeof(long), MPI_INFO_NULL,
@@ -36,7 +37,9 @@ SharedBoard::SharedBoard(const Comm& comm, std::span<const long> numbers)
   comm.barrier();
 }
 
-SharedBoard::~SharedBoard() { MPI_Win_free(&window_); }
+SharedBoard::~SharedBoard() {
+  if (std::uncaught_exceptions() == exceptions_before_) MPI_Win_free(&window_);
+}
 
 void SharedBoard::use(const std::function<void(std::span<long>)>& work) {
   const int count = mpi_count(numbers_.size());

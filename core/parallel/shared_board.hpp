@@ -15,7 +15,8 @@ namespace wingbeat {
 // machines its MPI answers when it is next called.
 class SharedBoard {
  public:
-  // `numbers`: as rank 0 gives them. Collective, as is destruction.
+  // `numbers`: as rank 0 gives them. Collective, as is destruction, except on a rank that an exception takes
+  // away: the others may never come.
   SharedBoard(const Comm& comm, std::span<const long> numbers);
   ~SharedBoard();
   SharedBoard(const SharedBoard&) = delete;
@@ -27,6 +28,7 @@ class SharedBoard {
  private:
   MPI_Win window_ = MPI_WIN_NULL;
   std::vector<long> numbers_;
+  int exceptions_before_;
 };
 
 }  // namespace wingbeat

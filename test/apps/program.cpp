@@ -79,6 +79,13 @@ int Program::run_and_signal(const std::vector<std::string>& arguments, const std
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
+std::string Program::small_case() {
+  return "[mesh]\nairfoil = \"naca64a010\"\ncells = [48, 12]\n[flow]\nmach = 0.8\n"
+         "[pitch]\namplitude_deg = 1.0\nreduced_frequency = 0.2\n"
+         "[structure]\nelastic_axis = -0.6\nstatic_unbalance = 0.25\ngyration_radius_squared = 0.75\n"
+         "frequency_ratio = 0.5\nmass_ratio = 75\n";
+}
+
 void Program::write(const std::string& name, const std::string& text) const {
   fs::create_directories((folder_ / name).parent_path());
   std::ofstream(folder_ / name) << text;

@@ -26,6 +26,8 @@ class Program : public ::testing::Test {
   ProgramRun run(const std::vector<std::string>& arguments, int ranks = 0) const;
   // Sends the signal once the program, on one rank, has printed `awaited`; its exit code.
   int run_and_signal(const std::vector<std::string>& arguments, const std::string& awaited, int signal) const;
+  // The paper's section on a mesh of a second's work, with a motion for pitch.
+  static std::string small_case();
   void write(const std::string& name, const std::string& text) const;
   std::string read(const std::string& name) const;
   nlohmann::json result(const std::string& output) const;  // of DIR/result.json

@@ -72,8 +72,12 @@ bool RunningProgram::comes_true(const Condition& condition) const {
   return false;
 }
 
-bool RunningProgram::has_printed(const std::string& awaited) const {
-  return comes_true([&] { return output().find(awaited) != std::string::npos; });
+bool RunningProgram::has_printed(const std::string& awaited, const std::string& then) const {
+  return comes_true([&] {
+    const std::string text = output();
+    const auto first = text.find(awaited);
+    return first != std::string::npos && text.find(then, first) != std::string::npos;
+  });
 }
 
 bool RunningProgram::has_written(const fs::path& file, const std::string& text) const {

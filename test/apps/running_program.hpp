@@ -20,8 +20,8 @@ class RunningProgram {
 
   // What it has printed so far, on both streams.
   std::string output() const;
-  // False where it ended, or a minute passed, without printing that.
-  bool has_printed(const std::string& awaited) const;
+  // False where it ended, or a minute passed, without printing that, or without `then` after it.
+  bool has_printed(const std::string& awaited, const std::string& then = "") const;
   // False where it ended, or a minute passed, without that text in the file.
   bool has_written(const std::filesystem::path& file, const std::string& text) const;
 

@@ -218,5 +218,16 @@ TEST(CgnsMesh, ResolvesFamilies) {
   EXPECT_EQ(mesh.zones[0].patches[2].family, "Section");
 }
 
+// A family of another base is given by a path.
+TEST(CgnsMesh, ReadsFamiliesGivenByAPath) {
+  const TemporaryFolder folder;
+  raw_square().write(folder / "raw.cgns");
+  edit(folder / "raw.cgns", [](int fn) {
+    ASSERT_EQ(cg_goto(fn, 1, "Zone_t", 1, "ZoneBC_t", 1, "BC_t", 3, "end"), CG_OK);
+    ASSERT_EQ(cg_famname_write("OtherBase/Section"), CG_OK) << cg_get_error();
+  });
+  EXPECT_EQ(read_back<2>(folder / "raw.cgns").zones[0].patches[2].family, "Section");
+}
+
 }  // namespace
 }  // namespace wingbeat

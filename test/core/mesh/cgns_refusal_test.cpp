@@ -69,6 +69,14 @@ TEST(CgnsRefusal, RefusesZonesWithoutCoordinates) {
   expect_contains(refusal(raw, folder), "raw.cgns: zone 'raw': has no coordinates");
 }
 
+// Lest memory is asked for that no file of that length can fill.
+TEST(CgnsRefusal, RefusesMoreNodesThanTheFileCanHold) {
+  const TemporaryFolder folder;
+  RawFile raw;
+  raw.size = {100000, 100000, 99999, 99999, 0, 0};
+  expect_contains(refusal(raw, folder), "raw.cgns: zone 'raw': tells of 1e+10 values in a file of ");
+}
+
 TEST(CgnsRefusal, RefusesAConnectionListedOnOneSideOnly) {
   const TemporaryFolder folder;
   MultiblockMesh<2> mesh = row_of_blocks<2>(2, {3, 3});
@@ -96,6 +104,10 @@ TEST(CgnsRefusal, RefusesContradictingConnections) {
   };
   expect_contains(refuse_connection({1, 1, 1, 3}, {3, 1, 3, 3}, {1, 2}, "tail"),
                   "zone 'raw', interface 'link': there is no donor zone 'tail'");
+  // A donor in another base is given by a path, of twice 32 characters at the most.
+  const std::string base(32, 'B'), zone(32, 'Z');
+  expect_contains(refuse_connection({1, 1, 1, 3}, {3, 1, 3, 3}, {1, 2}, base + "/" + zone),
+                  "zone 'raw', interface 'link': there is no donor zone '" + zone + "'");
   expect_contains(refuse_connection({1, 1, 1, 3}, {3, 1, 3, 3}, {1, -2}, "raw"),
                   "interface 'link': its Transform does not carry PointRange to PointRangeDonor");
   expect_contains(refuse_connection({1, 1, 1, 1}, {3, 1, 3, 1}, {1, 2}, "raw"),

@@ -40,5 +40,17 @@ TEST(SharedBoard, IsFreeAgainAfterAFailure) {
   comm.barrier();
 }
 
+// The others may be at work and never come.
+TEST(SharedBoard, IsLeftByAnExceptionWithoutTheOthers) {
+  const Comm comm;
+  const auto leave = [&] {
+    const SharedBoard board(comm, std::vector<long>{7});
+    if (comm.is_root()) comm.barrier();  // which the others reach when they have left
+    throw std::runtime_error("failed");
+  };
+  EXPECT_THROW(leave(), std::runtime_error);
+  if (!comm.is_root()) comm.barrier();
+}
+
 }  // namespace
 }  // namespace wingbeat

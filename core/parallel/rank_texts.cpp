@@ -1,4 +1,4 @@
-#include "optimize/rank_texts.hpp"
+#include "core/parallel/rank_texts.hpp"
 
 namespace wingbeat {
 
