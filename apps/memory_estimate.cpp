@@ -83,15 +83,17 @@ double bytes_of(const std::string& verb, const CaseSettings& settings, const Ran
   }
   const SolverSettings& solver = settings.solver;
   const Period held = period_of(verb, settings);
-  const double vectors = krylov_vectors(solver, verb);
-  if (!solver.uses_cycles()) return by_newton(solver, cells, held, vectors);
+  const double newton = by_newton(solver, cells, held, krylov_vectors(solver, verb));
   const double cycles = by_cycles(cells, held);
-  if (verb == "steady" || verb == "march" || verb == "pitch")
-    return solver.ends_with_newton() ? std::max(cycles, by_newton(solver, cells, held, vectors)) : cycles;
+  if (verb == "steady" || verb == "march" || verb == "pitch") {
+    if (!solver.uses_cycles()) return newton;
+    return solver.ends_with_newton() ? std::max(cycles, newton) : cycles;
+  }
+  if (!solver.is_staggered() || (verb != "flutter" && verb != "lco")) return newton;
   const RankCells coarse{cells.own / coarsening, cells.factored / coarsening};
-  const double start = cells.own * state_bytes + by_newton(solver, coarse, period(1), vectors);
-  const double end = solver.ends_with_newton() ? by_newton(solver, cells, held, vectors) : cycles;
-  return std::max(start, end);
+  const double start =
+      cells.own * state_bytes + by_newton(solver, coarse, period(1), krylov_vectors(solver, "flutter"));
+  return std::max(start, solver.ends_with_newton() ? newton : cycles);
 }
 
 }  // namespace

@@ -76,8 +76,9 @@ std::optional<Holder> read_holder(int descriptor) {
   return holder;
 }
 
-bool is_gone(const Holder& holder) {
-  return holder.host == host_name() && start_of(holder.process) != holder.started;
+bool is_gone(const Holder& holder, const fs::path& file) {
+  if (holder.host == host_name()) return start_of(holder.process) != holder.started;
+  return since_heartbeat(file) > FolderLock::patience;
 }
 
 [[noreturn]] void refuse(const fs::path& file, const std::optional<Holder>& holder) {
@@ -89,8 +90,11 @@ bool is_gone(const Holder& holder) {
                     folder, file.string()));
   throw InputError(fmt::format(
       "{}: in use by \"{}\" since {} (host {}, process {}); wait for it, give another --output, or, "
-      "if it runs no more, remove {}",
-      folder, holder->run, holder->since, holder->host, holder->process, file.string()));
+      "if it runs no more, remove {}{}",
+      folder, holder->run, holder->since, holder->host, holder->process, file.string(),
+      holder->host == host_name()
+          ? ""
+          : fmt::format(" or wait until that has been silent for {} minutes", FolderLock::patience.count())));
 }
 
 [[noreturn]] void fail(const fs::path& file, int error) {
@@ -129,14 +133,15 @@ std::optional<int> try_to_hold(const fs::path& file) {
   const auto holder = read_holder(opened.descriptor);
   if (has_flock && !held) refuse(file, holder);
   if (!is_current(opened.descriptor, file)) return std::nullopt;
-  const bool is_free = created || (holder ? is_gone(*holder) : held);
+  const bool is_free = created || (holder ? is_gone(*holder, file) : held);
   if (!is_free) refuse(file, holder);
   return std::exchange(opened.descriptor, -1);
 }
 
 }  // namespace
 
-FolderLock::FolderLock(const fs::path& folder, const std::string& run) : file_(file_in(folder)) {
+FolderLock::FolderLock(const fs::path& folder, const std::string& run, std::chrono::milliseconds interval)
+    : file_(file_in(folder)) {
   create_folder(folder);
   for (int i = 0; i < most_attempts && descriptor_ < 0; ++i) descriptor_ = try_to_hold(file_).value_or(-1);
   if (descriptor_ < 0) refuse(file_, std::nullopt);
@@ -145,7 +150,10 @@ FolderLock::FolderLock(const fs::path& folder, const std::string& run) : file_(f
                fmt::format("{:%Y-%m-%d %H:%M:%S} UTC", fmt::gmtime(std::time(nullptr))), run});
   const bool written = ::ftruncate(descriptor_, 0) == 0 && ::pwrite(descriptor_, text.data(), text.size(),
                                                                     0) == static_cast<ssize_t>(text.size());
-  if (written) return;
+  if (written) {
+    heartbeat_.emplace(descriptor_, interval);
+    return;
+  }
   const int error = errno;
   ::unlink(file_.c_str());
   ::close(descriptor_);
@@ -153,6 +161,7 @@ FolderLock::FolderLock(const fs::path& folder, const std::string& run) : file_(f
 }
 
 FolderLock::~FolderLock() {
+  heartbeat_.reset();
   if (is_current(descriptor_, file_)) ::unlink(file_.c_str());
   ::close(descriptor_);
 }

@@ -36,7 +36,7 @@ TEST_F(Memory, IsEstimatedToAFifth) {
        {"mesh.cells=[250, 50]", "solver.flow_method=runge_kutta", "solver.steady_tolerance=1e-2"}},
       {"pitch", 1, {"time.harmonics=3"}},
       {"pitch", 2, {"solver.flow_method=runge_kutta"}},
-      {"flutter", 1, {"mesh.cells=[96, 24]"}},
+      {"flutter", 1, {"mesh.cells=[96, 24]", "solver.flow_method=runge_kutta"}},
       {"flutter", 2, {"time.harmonics=3"}},
       {"flutter", 1, {"time.harmonics=3", "solver.subdomain=ilu"}},
       {"flutter", 1, {"mesh.cells=[128, 32]", "solver.method=staggered"}}};

@@ -102,6 +102,29 @@ TEST_F(FolderOfResults, IsNotTakenFromAnotherHost) {
   EXPECT_EQ(lines().front(), "another-host");
 }
 
+// Its processes are not to be seen, but that its run is alive is: it renews the time of the lock.
+TEST_F(FolderOfResults, IsTakenOverFromAnotherHostThatHasBeenSilent) {
+  const std::vector<std::string> other{"another-host", "1", "1", "2026-01-02 03:04:05 UTC", "wingbeat march"};
+  const auto refusal_after = [&](std::chrono::minutes silence) {
+    leave(other);
+    fs::last_write_time(file_, fs::last_write_time(file_) - silence);
+    return refusal();
+  };
+  EXPECT_NE(refusal_after(FolderLock::patience - std::chrono::minutes(1)), "");
+  EXPECT_EQ(refusal_after(FolderLock::patience + std::chrono::minutes(1)), "");
+}
+
+TEST_F(FolderOfResults, IsSeenToBeHeldAsLongAsItIs) {
+  const FolderLock lock(folder_, "wingbeat flutter", std::chrono::milliseconds(5));
+  const auto long_ago = fs::last_write_time(file_) - std::chrono::hours(1);
+  for (int pulse = 0; pulse < 2; ++pulse) {
+    fs::last_write_time(file_, long_ago);
+    for (int i = 0; i < 2000 && fs::last_write_time(file_) == long_ago; ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    EXPECT_GT(fs::last_write_time(file_), long_ago);
+  }
+}
+
 TEST_F(FolderOfResults, IsTakenOverFromARunKilledAsItBegan) {
   write_file(file_, "");
   EXPECT_EQ(refusal(), "");
