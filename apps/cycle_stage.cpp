@@ -21,7 +21,7 @@ CycleApproach approach_cycle(Context& context, FlowLevels<2>& levels, const Stru
     if (is_periodic && !needs_all_roots)
       return {SolveStatus::converged, solver.restart(std::move(state)), {}};
     level.w = is_periodic ? mean_instance(state.w, time_of(state)) : std::move(state.w);
-    if (is_periodic) context.checkpoints.forget();
+    if (is_periodic) context.checkpoints.forget();  // it is of the one cycle
   }
   const SolveStatus steady = run_steady_stage(context, levels, history, true);
   if (steady != SolveStatus::converged) return {steady, std::nullopt, {}};

@@ -6,7 +6,7 @@
 #include "adjoint/load_functional.hpp"
 #include "apps/case_mesh.hpp"
 #include "apps/memory_check.hpp"
-#include "core/io/memory.hpp"
+#include "core/io/counted.hpp"
 
 namespace wingbeat {
 namespace {
@@ -69,9 +69,12 @@ PartitionOptions partition_options(const CaseSettings& settings) {
 template <int Dim>
 FlowLevels<Dim> make_levels(Context& context, const MultiblockMesh<Dim>& mesh) {
   const auto part = context.timer.measure("mesh");
-  const double held = resident_bytes();
   const CaseSettings& settings = context.settings;
   const FlowLevelOptions options{partition_options(settings), subdomain_options(settings.solver)};
+  const auto statistics =
+      partition_statistics<Dim>(mesh, partition_mesh<Dim>(mesh, context.comm.size(), options.partition),
+                                2 * settings.time.harmonics + 1);
+  check_memory(context, mesh.cell_count(), statistics);
   FlowLevels<Dim> levels;
   auto meshes = mesh_sequence(settings.mesh, mesh, settings.solver.coarse_levels);
   for (auto& level_mesh : meshes) {
@@ -83,14 +86,10 @@ FlowLevels<Dim> make_levels(Context& context, const MultiblockMesh<Dim>& mesh) {
   }
   std::string sizes;
   for (const auto& level : levels) sizes += (sizes.empty() ? "" : ", ") + mesh_size_text<Dim>(level->mesh);
-  const auto& finest = *levels.back();
-  const auto statistics =
-      partition_statistics<Dim>(finest.mesh, finest.partition, 2 * settings.time.harmonics + 1);
   context.log.line("meshes {}; every BCWall of the mesh is a slip wall", sizes);
-  context.log.line("{} rank{}: {} blocks, imbalance {:.1f} %, {} faces cut, {} halo cells", statistics.ranks,
-                   statistics.ranks == 1 ? "" : "s", statistics.blocks, 100.0 * statistics.imbalance,
-                   statistics.edge_cut, statistics.halo_cells);
-  check_memory(context, finest.mesh.cell_count(), statistics, held);
+  context.log.line("{}: {}, imbalance {:.1f} %, {} faces cut, {} halo cells",
+                   counted(statistics.ranks, "rank"), counted(statistics.blocks, "block"),
+                   100.0 * statistics.imbalance, statistics.edge_cut, statistics.halo_cells);
   return levels;
 }
 

@@ -11,6 +11,7 @@
 #include "apps/memory_packing.hpp"
 #include "apps/solution_output.hpp"
 #include "apps/verbs.hpp"
+#include "core/io/counted.hpp"
 #include "structure/energy.hpp"
 
 namespace wingbeat {
@@ -40,7 +41,7 @@ struct LcoRun {
   }
   SolveStatus end_well() const {
     const std::size_t count = record.asked().size();
-    return end(SolveStatus::converged, fmt::format("{} limit cycle{}", count, count == 1 ? "" : "s"));
+    return end(SolveStatus::converged, counted(count, "limit cycle"));
   }
 };
 

@@ -7,9 +7,9 @@
 
 namespace wingbeat {
 
-// Says how much memory the run will take and throws InputError where this node has not as much, even if the
-// estimate is a fifth too high; warns where it may not have. To be called before the bulk of it is taken.
-// `process`: what this rank held before it took anything of the mesh's size, in bytes. Collective.
-void check_memory(Context& context, std::size_t cells, const PartitionStatistics& partition, double process);
+// Says how much memory the run will take and throws InputError where the node, or the limit of a rank's
+// address space, has not as much, even if the estimate is a fifth too high; warns where it may not have. To
+// be called before anything of the mesh's size but the mesh itself is taken. Collective.
+void check_memory(Context& context, std::size_t cells, const PartitionStatistics& partition);
 
 }  // namespace wingbeat

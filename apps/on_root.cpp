@@ -1,12 +1,14 @@
 #include "apps/on_root.hpp"
 
+#include <new>
+
 #include "core/io/error.hpp"
 #include "core/parallel/rank_texts.hpp"
 
 namespace wingbeat {
 namespace {
 
-constexpr char input = 'i', internal = 'x';
+constexpr char input = 'i', memory = 'm', internal = 'x';
 
 }  // namespace
 
@@ -15,6 +17,8 @@ std::string failure_of(const std::function<void()>& task) {
     task();
   } catch (const InputError& error) {
     return input + std::string(error.what());
+  } catch (const std::bad_alloc& error) {
+    return memory + std::string(error.what());
   } catch (const std::exception& error) {
     return internal + std::string(error.what());
   }
@@ -26,13 +30,14 @@ std::string message_of(const std::string& failure) { return failure.substr(1); }
 void throw_failure(const std::string& failure) {
   if (failure.empty()) return;
   if (failure.front() == input) throw InputError(message_of(failure));
+  if (failure.front() == memory) throw std::bad_alloc();
   throw InternalError(message_of(failure));
 }
 
 std::string first_failure(const Comm& comm, const std::string& failure) {
-  if (!comm.any(!failure.empty())) return {};
-  const double first = comm.min(failure.empty() ? comm.size() : comm.rank());
-  return joined(comm, comm.rank() == static_cast<int>(first) ? failure : std::string());
+  const int first = static_cast<int>(comm.min(failure.empty() ? comm.size() : comm.rank()));
+  if (first == comm.size()) return {};
+  return joined(comm, comm.rank() == first ? failure : std::string());
 }
 
 }  // namespace wingbeat

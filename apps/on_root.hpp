@@ -13,7 +13,7 @@ namespace wingbeat {
 // The message of what a task throws, with a letter for its kind before it; empty where it does not throw.
 std::string failure_of(const std::function<void()>& task);
 std::string message_of(const std::string& failure);  // without the letter
-// Throws InputError or InternalError as that text tells; nothing where it is empty.
+// Throws InputError, InternalError or std::bad_alloc as that text tells; nothing where it is empty.
 void throw_failure(const std::string& failure);
 
 // Runs `task` on rank 0 alone, for what one process must do, such as writing a file. What it

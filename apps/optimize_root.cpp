@@ -255,10 +255,13 @@ class OptimizationRun {
     const double after = program.objective(*final);
     const std::string name =
         problem_.is_single() ? problem_.objective.front().output : statement_.objective.text;
+    // A sum is of ratios already, and its baseline may be near zero.
+    const std::string change = problem_.is_single()
+                                   ? fmt::format("{:+.2f} %", 100.0 * (after - before) / std::abs(before))
+                                   : fmt::format("{:+.4f}", after - before);
     outcome.message =
-        fmt::format("{}: {} = {:.8g}, {:+.2f} % on the baseline {:.8g}, {} iterations, {} designs",
-                    to_string(result.status), name, after, 100.0 * (after - before) / std::abs(before),
-                    before, iterations, record_.evaluations());
+        fmt::format("{}: {} = {:.8g}, {} on the baseline {:.8g}, {} iterations, {} designs",
+                    to_string(result.status), name, after, change, before, iterations, record_.evaluations());
     if (!is_done) outcome.message += "; " + result.message;
     outcome.findings = {{"objective", statement_.objective.text},
                         {"objective_initial", before},

@@ -74,6 +74,8 @@ SolveStatus finish_optimization(Context& context, const MultiblockMesh<2>& mesh,
   const double turn = variables.change(outcome.design)[Scalar::angle_of_attack];
   const SectionFolder sections[] = {write_section(context, "baseline", mesh, shape, none, 0.0),
                                     write_section(context, "optimum", mesh, shape, amplitudes, turn)};
+  // What is found stays found, whatever becomes of the comparison.
+  context.result.status = to_string(outcome.status);
   on_root(comm, [&] { context.result.write(context.output / "result.json"); });
   for (const std::string& verb : context.settings.optimize.compare) {
     if (verb != "steady" && !has_structure(context.settings)) {

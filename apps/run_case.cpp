@@ -18,6 +18,7 @@
 #include "apps/verbs.hpp"
 #include "apps/version.hpp"
 #include "core/io/case_file.hpp"
+#include "core/io/counted.hpp"
 #include "core/io/error.hpp"
 #include "core/io/file.hpp"
 #include "core/io/folder_lock.hpp"
@@ -57,21 +58,29 @@ void prepare_output(const Comm& comm, const CommandLine& command, const Resolved
   });
 }
 
+// Groups of ranks that each hold a mesh of their own.
+int groups_of(const std::string& verb, const CaseSettings& settings) {
+  if (verb == "sweep") return settings.sweep.groups;
+  return verb == "optimize" ? settings.optimize.groups : 1;
+}
+
 // What a run would work on, and the memory that it would take. Making the mesh finds its faults, too.
 void show_plan(const Comm& comm, const Verb& verb, const ResolvedCase& resolved, Log& log) {
-  const CaseSettings& settings = resolved.settings;
   log.line(resolved.text);
   if (verb.plan) log.line("# {}", verb.plan(resolved));
+  const CaseSettings settings = verb.largest_case ? verb.largest_case(resolved) : resolved.settings;
   if (!settings.mesh.airfoil && !settings.mesh.file) return;
   const double process = comm.max(resident_bytes());
+  const int groups = std::min(groups_of(verb.name, resolved.settings), comm.size());
+  const int ranks = comm.size() / groups, instances = 2 * settings.time.harmonics + 1;
   std::visit(
       [&]<int Dim>(const MultiblockMesh<Dim>& mesh) {
-        log.line("# {} cells in {} blocks", mesh.cell_count(), mesh.zones.size());
-        const int ranks = comm.size(), instances = 2 * settings.time.harmonics + 1;
+        log.line("# {} cells in {}", mesh.cell_count(), counted(mesh.zones.size(), "block"));
         const auto partition = partition_mesh(mesh, ranks, partition_options(settings));
         const auto statistics = partition_statistics(mesh, partition, instances);
-        const auto memory = estimate_memory(verb.name, settings, mesh.cell_count(), statistics, process);
-        log.line("# memory: about {}", memory_text(memory, ranks));
+        auto memory = estimate_memory(verb.name, settings, mesh.cell_count(), statistics, process);
+        memory.all_ranks *= groups;
+        log.line("# memory: about {}", memory_text(memory, comm.size()));
       },
       make_case_mesh(comm, settings.mesh));
 }
@@ -194,8 +203,8 @@ const Verb& find_verb(const std::string& name) {
 }
 
 std::string case_head(const Comm& comm, const std::string& verb, const std::string& case_path) {
-  return fmt::format("# wingbeat {} ({}): {} {} on {} rank{}\n\n", version(), git_commit(), verb, case_path,
-                     comm.size(), comm.size() == 1 ? "" : "s");
+  return fmt::format("# wingbeat {} ({}): {} {} on {}\n\n", version(), git_commit(), verb, case_path,
+                     counted(comm.size(), "rank"));
 }
 
 int run_case(const Comm& comm, const CommandLine& command) {

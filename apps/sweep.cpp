@@ -16,6 +16,7 @@
 #include "apps/sweep_journal.hpp"
 #include "apps/sweep_queue.hpp"
 #include "apps/verbs.hpp"
+#include "core/io/counted.hpp"
 #include "core/io/error.hpp"
 #include "core/io/progress.hpp"
 
@@ -94,7 +95,8 @@ SweepOutcome Sweep::solve(const SweepQueue::Task& task) {
     }
   }
   return run_sweep_point(context_, group_.get(), agreement_,
-                         {context_.settings.sweep.verb, *settings, journal_.folder(task.point), neighbour});
+                         {context_.settings.sweep.verb, *settings, journal_.folder(task.point),
+                          journal_.is_begun(task.point), neighbour});
 }
 
 // This group's share of the points.
@@ -106,7 +108,7 @@ void Sweep::work(SweepQueue& queue) {
     std::optional<SweepQueue::Task> task;
     if (comm.is_root()) {
       if (is_stopped) queue.stop();
-      task = queue.take(last);
+      task = queue.take(last, [&](std::size_t point) { journal_.record_begin(point); });
     }
     task = shared(comm, task);
     if (!task) break;
@@ -235,8 +237,8 @@ SolveStatus Sweep::run() {
     for (std::size_t i = 1; i < places.size(); ++i)
       narrowest_ = std::min(narrowest_, places[i] - places[i - 1]);
   }
-  context_.log.line("{} points, {} done before; {} group{} of ranks", journal_.states().size(),
-                    journal_.count(PointState::done), groups_, groups_ == 1 ? "" : "s");
+  context_.log.line("{} points, {} done before; {} of ranks", journal_.states().size(),
+                    journal_.count(PointState::done), counted(groups_, "group"));
   const auto part = context_.timer.measure("points");
   bool is_complete = run_pending();
   while (is_complete && refine()) is_complete = run_pending();
@@ -267,13 +269,25 @@ std::string sweep_plan(const ResolvedCase& sweep) {
                      point_label(points, 0), point_label(points, points.values.size() - 1));
 }
 
+CaseSettings largest_sweep_case(const ResolvedCase& sweep) {
+  const SweepPoints points = sweep_points(sweep.settings.sweep);
+  const auto size = [](const CaseSettings& settings) {
+    return static_cast<double>(settings.mesh.cells[0]) * settings.mesh.cells[1] * settings.time.harmonics;
+  };
+  CaseSettings largest = point_settings(sweep, points, 0);
+  for (std::size_t point = 1; point < points.values.size(); ++point)
+    if (CaseSettings settings = point_settings(sweep, points, point); size(settings) > size(largest))
+      largest = std::move(settings);
+  return largest;
+}
+
 SolveStatus run_sweep(Context& context) {
   const SweepPoints points = sweep_points(context.settings.sweep);
   on_root(context.comm, [&] { sweep_plan({context.settings, {}, context.sources}); });
   if (context.settings.sweep.groups > context.comm.size())
-    throw InputError(fmt::format("{} = {}: there are {} ranks; give as many groups at most",
+    throw InputError(fmt::format("{} = {}: the run has {}; give as many groups at most",
                                  context.place("sweep.groups"), context.settings.sweep.groups,
-                                 context.comm.size()));
+                                 counted(context.comm.size(), "rank")));
   return Sweep(context, points).run();
 }
 

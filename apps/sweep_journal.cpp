@@ -35,15 +35,17 @@ SweepJournal::SweepJournal(Context& context, SweepPoints points)
   // A last line that was cut short is removed.
   on_root(context_.comm, [&] {
     std::filesystem::create_directories(context_.output);
-    std::vector<SweepLine> known;
-    if (std::filesystem::is_regular_file(file_)) known = lines();
+    SweepLines known;
+    if (std::filesystem::is_regular_file(file_)) known = read();
     std::string text = head_.dump() + "\n";
-    for (const SweepLine& line : known) text += line.dump() + "\n";
+    for (const auto* lines : {&known.ended, &known.begun})
+      for (const SweepLine& line : *lines) text += line.dump() + "\n";
     write_file(file_, text);
-    sweep_table(points_.keys, known).write(context_.output / "sweep.csv");
+    sweep_table(points_.keys, known.ended).write(context_.output / "sweep.csv");
   });
-  const std::vector<SweepLine> known = shared_lines();
-  for (const SweepLine& line : known) next_number_ = std::max(next_number_, line["point"].get<int>() + 1);
+  const SweepLines known = read_on_all();
+  for (const auto* lines : {&known.ended, &known.begun})
+    for (const SweepLine& line : *lines) next_number_ = std::max(next_number_, line["point"].get<int>() + 1);
   for (std::size_t point = 0; point < points_.values.size(); ++point) take_over(point, known);
 }
 
@@ -53,38 +55,38 @@ std::filesystem::path SweepJournal::folder(std::size_t point) const {
   return context_.output / "points" / fmt::format("{:04}", numbers_[point]);
 }
 
-std::vector<SweepLine> SweepJournal::lines() const {
-  return read_sweep_lines(read_file(file_), file_.string(), head_);
-}
+SweepLines SweepJournal::read() const { return read_sweep_lines(read_file(file_), file_.string(), head_); }
 
-std::vector<SweepLine> SweepJournal::shared_lines() const {
+SweepLines SweepJournal::read_on_all() const {
   std::string text;
   on_root(context_.comm, [&] { text = read_file(file_); });
   return read_sweep_lines(context_.comm.broadcast(text), file_.string(), head_);
 }
 
-void SweepJournal::take_over(std::size_t point, const std::vector<SweepLine>& lines) {
+void SweepJournal::take_over(std::size_t point, const SweepLines& lines) {
   const SweepLine parameters = parameter_values(points_.keys, points_.values[point]);
-  const auto found =
-      std::ranges::find_if(lines, [&](const SweepLine& line) { return line["parameters"] == parameters; });
-  if (found == lines.end()) {
-    numbers_.push_back(next_number_++);
-    states_.push_back(PointState::pending);
-    return;
-  }
-  numbers_.push_back((*found)["point"].get<int>());
-  const bool is_done = (*found)["status"] == "converged";
-  states_.push_back(is_done                 ? PointState::done
-                    : context_.retry_failed ? PointState::pending
-                                            : PointState::failed);
+  const SweepLine* ended = line_of(lines.ended, parameters);
+  const SweepLine* begun = line_of(lines.begun, parameters);
+  const SweepLine* known = ended ? ended : begun;
+  numbers_.push_back(known ? (*known)["point"].get<int>() : next_number_++);
+  begun_.push_back(known != nullptr);
+  const bool is_done = ended && (*ended)["status"] == "converged";
+  const bool is_left = !ended || (!is_done && context_.retry_failed);
+  states_.push_back(is_done ? PointState::done : is_left ? PointState::pending : PointState::failed);
 }
 
 void SweepJournal::add(const std::vector<std::string>& values) {
-  const std::vector<SweepLine> known = shared_lines();
+  const SweepLines known = read_on_all();
   for (const std::string& value : values) {
     points_.values.push_back({value});
     take_over(points_.values.size() - 1, known);
   }
+}
+
+void SweepJournal::record_begin(std::size_t point) const {
+  append_line(file_, {{"point", numbers_[point]},
+                      {"parameters", parameter_values(points_.keys, points_.values[point])},
+                      {"status", "begun"}});
 }
 
 void SweepJournal::record(std::size_t point, const std::optional<std::size_t>& start,

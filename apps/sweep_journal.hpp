@@ -31,14 +31,19 @@ class SweepJournal {
   // What has become of the points.
   void settle(std::vector<PointState> states) { states_ = std::move(states); }
 
+  // Whether an earlier run began this one and did not end it.
+  bool is_begun(std::size_t point) const { return begun_[point]; }
+
   // On one rank, while no other records.
+  void record_begin(std::size_t point) const;
   void record(std::size_t point, const std::optional<std::size_t>& start, const SweepOutcome& outcome) const;
-  // What is recorded, by one rank; see read_sweep_lines.
-  std::vector<SweepLine> lines() const;
+  // The points that have ended, by one rank; see read_sweep_lines.
+  std::vector<SweepLine> lines() const { return read().ended; }
 
  private:
-  std::vector<SweepLine> shared_lines() const;
-  void take_over(std::size_t point, const std::vector<SweepLine>& lines);
+  SweepLines read() const;
+  SweepLines read_on_all() const;
+  void take_over(std::size_t point, const SweepLines& lines);
 
   Context& context_;
   SweepPoints points_;
@@ -46,6 +51,7 @@ class SweepJournal {
   std::filesystem::path file_;
   std::vector<int> numbers_;  // of each point: its folder
   std::vector<PointState> states_;
+  std::vector<bool> begun_;
   int next_number_ = 1;
 };
 

@@ -2,6 +2,8 @@
 
 #include <chrono>
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "apps/on_root.hpp"
@@ -46,29 +48,31 @@ SweepOutcome attempt(Context& outer, const Comm& group, FailureAgreement& agreem
   return {result.status, result.message, result.findings, start.neighbour.has_value(), 0.0};
 }
 
-// Whether an attempt came to an end that is not worth going on from.
-bool has_failed(const fs::path& result) {
+// Whether an attempt came to an end, and so leaves nothing to go on from.
+bool has_ended(const fs::path& result) {
   if (!fs::exists(result)) return false;
   const auto found = nlohmann::json::parse(read_file(result), nullptr, false);
   return !found.is_object() || found.value("status", "") != "interrupted";
 }
 
-// Makes the point's folder ready: what an attempt at the same case that was stopped or killed left in it to
-// go on from. Whatever else lies there is of another point, or failed, and is removed.
-std::string prepare_folder(const SweepTask& task, const std::string& head, const std::string& text) {
-  const fs::path case_file = task.folder / "case.toml", result = task.folder / "result.json";
-  std::string unfinished;
-  if (fs::is_regular_file(case_file) && read_file(case_file).ends_with(text) && !has_failed(result)) {
-    Log silent(false);
-    try {
-      unfinished = unfinished_run(task.folder, find_verb(task.verb), silent).string();
-    } catch (const InputError&) {  // it is damaged
-    }
+// What an attempt that was stopped or killed left to go on from; empty where there is nothing.
+std::string unfinished_attempt(const SweepTask& task) {
+  if (!task.is_begun || has_ended(task.folder / "result.json")) return "";
+  Log silent(false);
+  try {
+    return unfinished_run(task.folder, find_verb(task.verb), silent).string();
+  } catch (const InputError&) {
+    return "";  // damaged: the point begins anew
   }
+}
+
+// Makes the point's folder ready, and keeps in it only what there is to go on from.
+std::string prepare_folder(const SweepTask& task, const std::string& case_file) {
+  const std::string unfinished = unfinished_attempt(task);
   if (unfinished.empty()) fs::remove_all(task.folder);
-  fs::remove(result);
+  fs::remove(task.folder / "result.json");
   fs::create_directories(task.folder);
-  write_file(case_file, head + text);
+  write_file(task.folder / "case.toml", case_file);
   return unfinished;
 }
 
@@ -77,11 +81,11 @@ std::string prepare_folder(const SweepTask& task, const std::string& head, const
 SweepOutcome run_sweep_point(Context& outer, const Comm& group, FailureAgreement& agreement,
                              const SweepTask& task) {
   using Clock = std::chrono::steady_clock;
-  const auto start = Clock::now();
+  const auto begin = Clock::now();
   std::string unfinished;
   on_root(group, [&] {
-    unfinished = prepare_folder(task, case_head(group, task.verb, "within " + outer.output.string()),
-                                case_text(task.settings, outer.sources));
+    unfinished = prepare_folder(task, case_head(group, task.verb, "within " + outer.output.string()) +
+                                          case_text(task.settings, outer.sources));
   });
   unfinished = group.broadcast(unfinished);
   std::vector<Start> starts;
@@ -93,7 +97,7 @@ SweepOutcome run_sweep_point(Context& outer, const Comm& group, FailureAgreement
     outcome = attempt(outer, group, agreement, task, from);
     if (outcome.status == "converged" || outcome.status == "interrupted") break;
   }
-  outcome.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  outcome.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   return outcome;
 }
 

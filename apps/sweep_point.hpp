@@ -14,7 +14,8 @@ struct SweepTask {
   std::string verb;
   const CaseSettings& settings;
   std::filesystem::path folder;
-  std::optional<Neighbour> neighbour;  // solved points to start from
+  bool is_begun = false;  // an earlier run's attempt may have left something there to go on from
+  std::optional<Neighbour> neighbour{};  // solved points to start from
 };
 
 // What became of it.

@@ -24,13 +24,15 @@ std::vector<PointState> SweepQueue::states_on(Board board) {
   return states;
 }
 
-std::optional<SweepQueue::Task> SweepQueue::take(std::optional<std::size_t> last) {
+std::optional<SweepQueue::Task> SweepQueue::take(std::optional<std::size_t> last,
+                                                 const std::function<void(std::size_t point)>& record_begin) {
   std::optional<Task> task;
   board_.use([&](Board board) {
     if (board[stop_place] != 0) return;
     const std::vector<PointState> now = states_on(board);
     const auto point = next_point(points_, now, last);
     if (!point) return;
+    record_begin(*point);
     task = Task{.point = *point, .start = nearest_done(points_, now, *point)};
     if (task->start) task->before = done_before(points_, now, *point, *task->start);
     board[first_state + *point] = static_cast<long>(PointState::running);

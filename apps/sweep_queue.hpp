@@ -23,7 +23,8 @@ class SweepQueue {
     std::optional<std::size_t> start{};
     std::optional<PointBefore> before{};
   };
-  std::optional<Task> take(std::optional<std::size_t> last);
+  std::optional<Task> take(std::optional<std::size_t> last,
+                           const std::function<void(std::size_t point)>& record_begin);
   // The point is done or has failed; pending: it is given back. `record` runs while no other group has the
   // queue.
   void finish(std::size_t point, PointState state, const std::function<void()>& record);

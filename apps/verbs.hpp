@@ -40,6 +40,8 @@ std::vector<std::string> gradient_sections(const CaseSettings& settings);
 std::vector<std::string> optimize_sections(const CaseSettings& settings);
 // What a sweep would do, in a line; throws InputError where a point's case has faults.
 std::string sweep_plan(const ResolvedCase& resolved);
+// The case of its point with the largest mesh.
+CaseSettings largest_sweep_case(const ResolvedCase& resolved);
 
 // A verb of the command line that works on a case.
 struct Verb {
@@ -51,6 +53,7 @@ struct Verb {
   std::vector<std::string> (*faults)(const CaseSettings&) = nullptr;
   std::vector<std::string> (*sections_of)(const CaseSettings&) = nullptr;  // where the case decides
   std::string (*plan)(const ResolvedCase&) = nullptr;                      // what --dry-run says more
+  CaseSettings (*largest_case)(const ResolvedCase&) = nullptr;             // of several that it works on
   std::string record{};  // the file that it goes on from, where that is not solution.cgns
 };
 

@@ -96,9 +96,14 @@ SweepLine parameter_values(const std::vector<std::string>& keys, const std::vect
   return parameters;
 }
 
-std::vector<SweepLine> read_sweep_lines(const std::string& text, const std::string& path,
-                                        const SweepLine& head) {
-  std::vector<SweepLine> lines;
+const SweepLine* line_of(const std::vector<SweepLine>& lines, const SweepLine& parameters) {
+  const auto found =
+      std::ranges::find_if(lines, [&](const SweepLine& line) { return line["parameters"] == parameters; });
+  return found == lines.end() ? nullptr : &*found;
+}
+
+SweepLines read_sweep_lines(const std::string& text, const std::string& path, const SweepLine& head) {
+  SweepLines lines;
   std::istringstream stream(text);
   int number = 0;
   for (std::string line; std::getline(stream, line);) {
@@ -106,15 +111,18 @@ std::vector<SweepLine> read_sweep_lines(const std::string& text, const std::stri
     const bool is_cut_short = read.is_discarded() && stream.eof() && number > 0;
     if (is_cut_short) break;
     if (read.is_discarded())
-      throw InputError(
-          fmt::format("{}:{}: is not a line of JSON; remove the file to begin anew", path, number + 1));
+      throw InputError(fmt::format(
+          "{}:{}: is not a line of JSON; remove this line, or the file to begin anew", path, number + 1));
     if (++number == 1) {
       check_head(read, path, head);
       continue;
     }
-    std::erase_if(lines, [&](const SweepLine& held) { return held["parameters"] == read["parameters"]; });
-    lines.push_back(read);
+    std::vector<SweepLine>& same = read["status"] == "begun" ? lines.begun : lines.ended;
+    std::erase_if(same, [&](const SweepLine& held) { return held["parameters"] == read["parameters"]; });
+    same.push_back(read);
   }
+  std::erase_if(lines.begun, [&](const SweepLine& line) { return line_of(lines.ended, line["parameters"]); });
+
   if (number == 0) throw InputError(fmt::format("{}: is empty; remove the file to begin anew", path));
   return lines;
 }

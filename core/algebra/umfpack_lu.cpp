@@ -2,6 +2,7 @@
 
 #include <umfpack.h>
 
+#include <new>
 #include <numeric>
 #include <string>
 
@@ -58,8 +59,6 @@ std::string status_text(int status) {
   switch (status) {
     case UMFPACK_WARNING_singular_matrix:
       return "the matrix is singular";
-    case UMFPACK_ERROR_out_of_memory:
-      return "out of memory";
     case UMFPACK_ERROR_invalid_matrix:
       return "invalid matrix";
     case UMFPACK_ERROR_different_pattern:
@@ -72,6 +71,7 @@ std::string status_text(int status) {
 }
 
 void check(int status, const std::string& action) {
+  if (status == UMFPACK_ERROR_out_of_memory) throw std::bad_alloc();
   ensure(status == UMFPACK_OK, "UMFPACK " + action + ": " + status_text(status));
 }
 

@@ -16,6 +16,7 @@
 #include <fstream>
 #include <optional>
 #include <sstream>
+#include <system_error>
 #include <utility>
 
 #include "core/io/error.hpp"
@@ -151,7 +152,10 @@ FolderLock::FolderLock(const fs::path& folder, const std::string& run, std::chro
   const bool written = ::ftruncate(descriptor_, 0) == 0 && ::pwrite(descriptor_, text.data(), text.size(),
                                                                     0) == static_cast<ssize_t>(text.size());
   if (written) {
-    heartbeat_.emplace(descriptor_, interval);
+    try {
+      heartbeat_.emplace(descriptor_, interval);
+    } catch (const std::system_error&) {  // no thread to be had: at worst another host takes it for dead
+    }
     return;
   }
   const int error = errno;

@@ -1,5 +1,6 @@
 #include "core/io/memory.hpp"
 
+#include <malloc.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -62,6 +63,8 @@ double least_along(const fs::path& top, fs::path group, const Left& left) {
 
 double resident_bytes() { return own_bytes("VmRSS"); }
 double peak_resident_bytes() { return own_bytes("VmHWM"); }
+
+void return_freed_memory() { ::malloc_trim(0); }
 
 double available_bytes(const fs::path& root) {
   double least = unlimited;

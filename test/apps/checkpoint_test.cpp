@@ -16,8 +16,11 @@ namespace {
 TEST_F(Checkpoint, IsLeftBySignalsToMpirunAndToRanks) {
   for (const int ranks : {2, 4}) {
     for (const bool to_launcher : {true, false}) {
-      RunningProgram running(folder_, program_,
-                             words("pitch", "out", cycles_ + Words{"solver.flow_tolerance=1e-30"}), ranks);
+      RunningProgram running(
+          folder_, program_,
+          words("pitch", "out",
+                cycles_ + Words{"solver.flow_tolerance=1e-30", "pseudo_time.max_cycles=1000000"}),
+          ranks);
       ASSERT_TRUE(running.has_printed("Runge-Kutta on")) << running.output();
       if (to_launcher)
         running.signal_launcher(SIGUSR1);

@@ -73,7 +73,7 @@ TEST_F(CommandLineOfProgram, DryRunPrintsTheResolvedCaseAndWritesNothing) {
   EXPECT_EQ(dry.exit_code, 0);
   expect_in("mach = 0.7", dry.output);
   expect_in("# command line", dry.output);
-  expect_in("# 256 cells in 1 blocks", dry.output);
+  expect_in("# 256 cells in 1 block\n", dry.output);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "dry"));
 }
 

@@ -51,9 +51,12 @@ class Sweep : public Program {
         EXPECT_NEAR(std::stod(one[i]) / std::stod(other[i]), 1.0, 1e-8) << name << ' ' << i;
     }
   }
+  // Of points that have ended.
   std::size_t lines(const std::string& output) const {
-    const std::string text = read(output + "/sweep.jsonl");
-    return static_cast<std::size_t>(std::ranges::count(text, '\n'));
+    std::istringstream stream(read(output + "/sweep.jsonl"));
+    std::size_t count = 0;
+    for (std::string line; std::getline(stream, line);) count += line.find("\"results\"") != line.npos;
+    return count;
   }
 };
 
@@ -67,16 +70,16 @@ TEST_F(Sweep, GivesTheSameTableOnItsOwnInGroupsAndAfterAKill) {
   // Killed once a point is told of; the next run repeats none of those recorded.
   run_and_signal(small("killed", {four}), "converged", SIGKILL);
   const std::size_t known = lines("killed");
-  ASSERT_GE(known, 2u);
-  ASSERT_LT(known, 5u);
+  ASSERT_GE(known, 1u);
+  ASSERT_LT(known, 4u);
   const ProgramRun on = run(small("killed", {four}));
   ASSERT_EQ(on.exit_code, 0) << on.errors;
-  EXPECT_EQ(lines("killed"), 5u);
+  EXPECT_EQ(lines("killed"), 4u);
   expect_same("own", "killed");
 
   // Nothing is left to do.
   ASSERT_EQ(run(small("killed", {four})).exit_code, 0);
-  EXPECT_EQ(lines("killed"), 5u);
+  EXPECT_EQ(lines("killed"), 4u);
 }
 
 // From the plunge-dominated root, whose speed dips and then rises steeply, to the pitch-dominated one between
@@ -116,11 +119,11 @@ TEST_F(Sweep, KeepsPointsThatFailWithTheirReasonAndTriesThemAgainWhenAsked) {
   expect_in("no flutter root", read("out/sweep.csv"));
   const ProgramRun second = run(small("out", options));
   EXPECT_EQ(second.exit_code, 1);
-  EXPECT_EQ(lines("out"), 3u) << "a failed point is left as it is";
+  EXPECT_EQ(lines("out"), 2u) << "a failed point is left as it is";
   auto retried = options;
   retried.push_back("--retry-failed");
   EXPECT_EQ(run(small("out", retried)).exit_code, 1);
-  EXPECT_EQ(lines("out"), 4u);
+  EXPECT_EQ(lines("out"), 3u);
 }
 
 TEST_F(Sweep, RefusesPointsThatTheVerbRefusesBeforeAnyIsRun) {

@@ -30,10 +30,22 @@ TEST(SweepRecord, TakesTheLaterOfTwoLinesAndLeavesOutOneCutShort) {
                            point(2, 0.8, "converged").dump() + "\n" + point(1, 0.7, "converged").dump() +
                            "\n";
   const std::string cut = point(3, 0.9, "converged").dump().substr(0, 20);
-  const auto lines = read_sweep_lines(text + cut, "sweep.jsonl", head);
+  const auto lines = read_sweep_lines(text + cut, "sweep.jsonl", head).ended;
   ASSERT_EQ(lines.size(), 2u);
   EXPECT_EQ(lines[1]["point"], 1);
   EXPECT_EQ(lines[1]["status"], "converged");
+}
+
+// So that the next run finds the folder of a point that was under way.
+TEST(SweepRecord, KeepsPointsThatHaveBegunAndNotEnded) {
+  std::string text = head.dump() + "\n";
+  for (const auto& line : {point(1, 0.7, "begun"), point(2, 0.8, "begun"), point(1, 0.7, "converged")})
+    text += line.dump() + "\n";
+  const SweepLines lines = read_sweep_lines(text, "sweep.jsonl", head);
+  ASSERT_EQ(lines.ended.size(), 1u);
+  EXPECT_EQ(lines.ended[0]["status"], "converged");
+  ASSERT_EQ(lines.begun.size(), 1u);
+  EXPECT_EQ(line_of(lines.begun, {{"flow.mach", 0.8}})->at("point"), 2);
 }
 
 TEST(SweepRecord, RefusesAnotherCaseNamingItsKeysAndFilesThatAreNone) {
