@@ -141,7 +141,7 @@ TEST_F(Sweep, RefusesPointsThatTheVerbRefusesBeforeAnyIsRun) {
   refused({"sweep.refine=3", "sweep.parameters=[\"flow.scheme = ['jst', 'roe']\"]"}, "sweep.refine");
   const ProgramRun groups = run(small("out", {four, "--groups", "3"}), 2);
   EXPECT_EQ(groups.exit_code, 2);
-  expect_in("there are 2 ranks", groups.errors);
+  expect_in("the run has 2 ranks", groups.errors);
 }
 
 TEST_F(Sweep, RefusesTheRecordOfAnotherCaseAndLeavesItAsItIs) {
