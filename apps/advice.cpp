@@ -43,7 +43,7 @@ std::string coupled_advice(SolveStatus status, const SolverSettings& settings) {
     case SolveStatus::iteration_limit:
       return fmt::format(
           "Newton on the coupled problem needs more than solver.max_newton_iterations = {}; allow more and "
-          "continue with --restart solution.cgns",
+          "continue with --restart and this folder",
           settings.max_newton_iterations);
     case SolveStatus::stalled:
       return fmt::format(
@@ -56,7 +56,7 @@ std::string coupled_advice(SolveStatus status, const SolverSettings& settings) {
              "of a smaller flutter.energy with --restart, go there by `wingbeat lco` with lco.energies in "
              "between, or use solver.method = staggered";
     case SolveStatus::interrupted:
-      return "stopped by a signal or --walltime; continue with --restart solution.cgns";
+      return "stopped by a signal or --walltime; continue with --restart and this folder";
   }
   return "";
 }
@@ -69,7 +69,7 @@ std::string staggered_advice(SolveStatus status, const StaggeredSettings& settin
       return fmt::format(
           "flow and structure need more than staggered.max_iterations = {} turns; allow more and continue "
           "with "
-          "--restart solution.cgns, or let Newton finish with solver.flow_method = runge_kutta_newton",
+          "--restart and this folder, or let Newton finish with solver.flow_method = runge_kutta_newton",
           settings.max_iterations);
     case SolveStatus::stalled:
       return "flow and structure took turns without coming nearer; raise staggered.flow_cycles, start from "
@@ -82,7 +82,7 @@ std::string staggered_advice(SolveStatus status, const StaggeredSettings& settin
           "amplitude with --restart",
           settings.max_recoveries);
     case SolveStatus::interrupted:
-      return "stopped by a signal or --walltime; continue with --restart solution.cgns";
+      return "stopped by a signal or --walltime; continue with --restart and this folder";
   }
   return "";
 }
@@ -94,7 +94,7 @@ std::string forced_advice(SolveStatus status, const SolverSettings& settings) {
     case SolveStatus::iteration_limit:
       return fmt::format(
           "Newton on the forced motion needs more than solver.max_newton_iterations = {}; allow more and "
-          "continue with --restart solution.cgns",
+          "continue with --restart and this folder",
           settings.max_newton_iterations);
     case SolveStatus::stalled:
       return fmt::format(
@@ -105,7 +105,7 @@ std::string forced_advice(SolveStatus status, const SolverSettings& settings) {
       return "Newton on the forced motion diverged; start from the solution of a smaller amplitude with "
              "--restart";
     case SolveStatus::interrupted:
-      return "stopped by a signal or --walltime; continue with --restart solution.cgns";
+      return "stopped by a signal or --walltime; continue with --restart and this folder";
   }
   return "";
 }

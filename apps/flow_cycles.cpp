@@ -93,7 +93,7 @@ std::string cycles_advice(SolveStatus status, double tolerance, const PseudoTime
     case SolveStatus::iteration_limit:
       return fmt::format(
           "Runge-Kutta cycles did not bring the flow residual to {:.1e} in pseudo_time.max_cycles = {}; "
-          "allow more and continue with --restart solution.cgns, or let Newton finish with "
+          "allow more and continue with --restart and this folder, or let Newton finish with "
           "solver.flow_method = runge_kutta_newton",
           tolerance, settings.max_cycles);
     case SolveStatus::diverged:
@@ -103,7 +103,7 @@ std::string cycles_advice(SolveStatus status, double tolerance, const PseudoTime
           "look at the mesh with `wingbeat mesh`",
           settings.max_retreats);
     case SolveStatus::interrupted:
-      return "stopped by a signal or --walltime; continue with --restart solution.cgns";
+      return "stopped by a signal or --walltime; continue with --restart and this folder";
     default:
       return "";
   }

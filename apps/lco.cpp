@@ -55,7 +55,7 @@ SolveStatus end_at(const LcoRun& run, const CycleBranch& branch, BranchStep step
   if (step == BranchStep::interrupted)
     return run.end(SolveStatus::interrupted,
                    fmt::format("stopped by a signal or --walltime before {}; continue with --restart "
-                               "solution.cgns",
+                               "and this folder",
                                target));
   return run.end(
       SolveStatus::stalled,

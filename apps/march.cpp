@@ -23,7 +23,7 @@ namespace {
 constexpr double least_energy = 1e-6;  // of a start that the case does not describe
 constexpr double search_share = 0.01;  // of march.small_energy, the most that a march of a search starts with
 constexpr int max_marches = 15;
-constexpr const char* stopped = "stopped by a signal or --walltime; continue with --restart solution.cgns";
+constexpr const char* stopped = "stopped by a signal or --walltime; continue with --restart and this folder";
 
 // What a march begins with.
 struct MarchStart {
@@ -311,7 +311,7 @@ SolveStatus MarchCase::run() {
     case SolveStatus::iteration_limit:
       context_.result.message =
           "no verdict in the time allowed; allow more march.periods and continue with --restart "
-          "solution.cgns";
+          "and this folder";
       break;
     case SolveStatus::interrupted:
       context_.result.message = stopped;

@@ -143,7 +143,7 @@ SolveStatus run_steady_stage(Context& context, FlowLevels<2>& levels, History& h
   history.write();
   if (level.w.empty()) return solved.status;
   if (solved.status == SolveStatus::interrupted)
-    context.result.message = "stopped by a signal or --walltime; continue with --restart solution.cgns";
+    context.result.message = "stopped by a signal or --walltime; continue with --restart and this folder";
   const auto part = context.timer.measure("output");
   if (!context.checkpoints.is_ahead())
     write_solution_files(context, level, steady_state(level.w), solved.memory);

@@ -1,6 +1,9 @@
 #include "test/apps/checkpoint.hpp"
 
 #include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <random>
 #include <thread>
 
@@ -45,6 +48,37 @@ TEST_F(Checkpoint, IsNotWaitedForAfterASecondSignal) {
   const int code = running.finish();
   EXPECT_TRUE(code != 0 && code != 4) << code << running.output();
   EXPECT_FALSE(files("out").contains("result.json"));
+}
+
+void replace(std::string& text, const std::string& part, const std::string& by) {
+  const auto found = text.find(part);
+  ASSERT_NE(found, std::string::npos) << part;
+  text.replace(found, part.size(), by);
+}
+
+// As a user copies it, with mpirun's own option; a file stands for the queue.
+TEST_F(Checkpoint, LetsTheBatchScriptOfTheManualReturnToTheQueue) {
+  std::ifstream manual(std::string(WINGBEAT_SOURCE_DIR) + "/docs/tutorials/cluster.md");
+  const std::string text(std::istreambuf_iterator<char>(manual), {});
+  const auto begin = text.find("#!/bin/bash\n#SBATCH");
+  ASSERT_NE(begin, std::string::npos);
+  std::string script = text.substr(begin, text.find("```", begin) - begin);
+  replace(script, "mpirun", std::string(WINGBEAT_MPIEXEC) + " -n 2");
+  replace(script, "sigkill_timeout 10", "sigkill_timeout 1");
+  replace(script, "wingbeat flutter case.toml",
+          "'" + program_ +
+              "' pitch case.toml solver.flow_method=runge_kutta solver.flow_tolerance=1e-30 "
+              "pseudo_time.max_cycles=1000000");
+  replace(script, "scontrol requeue \"$SLURM_JOB_ID\"", "touch queued");
+  write("job.sh", script);
+  write("queue.sh",
+        "bash job.sh > job.log 2>&1 &\njob=$!\n"
+        "for i in $(seq 600); do grep -q 'Runge-Kutta on' job.log && break; sleep 0.1; done\n"
+        "kill -USR1 $job\nwait $job\n");
+  const int status = std::system(("cd '" + folder_.string() + "' && bash queue.sh").c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 4) << read("job.log");
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "queued")) << read("job.log");
+  EXPECT_EQ(result("run")["status"], "interrupted");
 }
 
 // ---- What a restart is of

@@ -27,7 +27,7 @@ TEST_F(CyclesEnd, AtTheirLimitWithAdvice) {
   for (const std::string verb : {"steady", "pitch", "flutter"}) {
     const auto limited = run({verb, "case.toml", "--output", "out", "pseudo_time.max_cycles=5"});
     EXPECT_EQ(limited.exit_code, 1) << limited.errors;
-    const std::vector<std::string> advice{"pseudo_time.max_cycles = 5", "--restart solution.cgns",
+    const std::vector<std::string> advice{"pseudo_time.max_cycles = 5", "--restart and this folder",
                                           "solver.flow_method = runge_kutta_newton"};
     expect_ended("iteration-limit", advice);
     for (const std::string& part : advice) expect_in(part, limited.errors);
@@ -39,7 +39,7 @@ TEST_F(CyclesEnd, InTurnsWithTheStructureAtTheirLimitAndGoOnFromThere) {
   auto limited = staggered, on = staggered;
   limited.insert(limited.end(), {"out", "staggered.max_iterations=20"});
   EXPECT_EQ(run(limited).exit_code, 1);
-  expect_ended("iteration-limit", {"staggered.max_iterations = 20", "--restart solution.cgns"});
+  expect_ended("iteration-limit", {"staggered.max_iterations = 20", "--restart and this folder"});
   on.insert(on.end(), {"on", "--restart", "out/solution.cgns"});
   EXPECT_EQ(run(on, 2).exit_code, 0);
   EXPECT_FALSE(result("on").contains("steady")) << "a periodic solution goes straight on";
@@ -65,7 +65,7 @@ TEST_F(CyclesEnd, WhenTheWallTimeIsUsedUpAndGoOnFromThere) {
                               "solver.steady_tolerance=1e-30", "solver.flow_tolerance=1e-30"},
                              2);
     EXPECT_EQ(stopped.exit_code, 4) << stopped.errors;
-    expect_ended("interrupted", {"stopped by a signal or --walltime", "--restart solution.cgns"});
+    expect_ended("interrupted", {"stopped by a signal or --walltime", "--restart and this folder"});
     const auto on = run({verb, "case.toml", "--output", "on", "--restart", "out/solution.cgns"});
     EXPECT_EQ(on.exit_code, 0) << on.errors;
   }
@@ -76,7 +76,7 @@ TEST_F(CyclesEnd, InTurnsWithTheStructureAtASignalAndGoOnFromThere) {
                                    "solver.structure_tolerance=1e-30"},
                                   "staggered, Runge-Kutta", SIGTERM);
   EXPECT_EQ(code, 4);
-  expect_ended("interrupted", {"stopped by a signal or --walltime", "--restart solution.cgns"});
+  expect_ended("interrupted", {"stopped by a signal or --walltime", "--restart and this folder"});
   const auto on = run({"flutter", "case.toml", "--output", "on", "solver.method=staggered", "--restart",
                        "out/solution.cgns"});
   EXPECT_EQ(on.exit_code, 0) << on.errors;
