@@ -20,7 +20,8 @@ namespace {
 using Point = Vec<double, 2>;
 
 constexpr std::size_t minimum_points = 10;
-constexpr double chord_tolerance = 0.01;       // of leading edge, chord and trailing-edge gap, chords
+constexpr double edge_tolerance = 0.01;        // of the trailing edge and its gap, chords
+constexpr double nose_tolerance = 0.05;        // of the leading edge, which a change of shape may move
 constexpr double repetition_tolerance = 1e-9;  // of points, chords
 constexpr double cusp_tolerance = 0.03;  // interpolation error of a trailing-edge angle of zero, radians
 
@@ -102,15 +103,15 @@ void check_chord(const std::vector<Ordinate>& points, const std::string& file) {
                      std::to_string(minimum_points));
   const double nose = points[foremost(points)].position[0];
   for (const Ordinate* end : {&points.front(), &points.back()})
-    if (std::abs(end->position[0] - 1.0) > chord_tolerance)
+    if (std::abs(end->position[0] - 1.0) > edge_tolerance)
       refuse(file, end->line,
              "x = " + fmt::format("{:g}", end->position[0]) +
                  " where the trailing edge, x = 1 within 1 %, is expected; order the points from "
                  "the upper trailing edge over the leading edge to the lower trailing edge, in chords");
-  if (std::abs(nose) > chord_tolerance)
+  if (std::abs(nose) > nose_tolerance)
     refuse(file, points[foremost(points)].line,
-           "leading edge at x = " + fmt::format("{:g}", nose) + "; it must lie at x = 0 within 1 % chord");
-  if (distance(points.front(), points.back()) > chord_tolerance)
+           "leading edge at x = " + fmt::format("{:g}", nose) + "; it must lie at x = 0 within 5 % chord");
+  if (distance(points.front(), points.back()) > edge_tolerance)
     refuse(file, points.back().line,
            "trailing edge open by more than 1 % chord; close it, the mesh needs a sharp edge");
 }
@@ -125,8 +126,8 @@ void check_repetition(const std::vector<Ordinate>& points, const std::string& fi
             "repeats the point of line " + std::to_string(points[i].line) + "; each point may be given once");
 }
 
-// Leading edge to x = 0, chord to 1, both ends to their midpoint.
-void normalise(std::vector<Ordinate>& points) {
+// Both ends to their midpoint.
+void close_trailing_edge(std::vector<Ordinate>& points) {
   const Point first = points.front().position, last = points.back().position;
   const double nose = points[foremost(points)].position[0];
   const Point middle = 0.5 * (first + last);
@@ -137,10 +138,6 @@ void normalise(std::vector<Ordinate>& points) {
     p += ((p[0] - nose) / (end[0] - nose)) * (middle - end);
   }
   points.front().position = points.back().position = middle;
-  for (auto& point : points) {
-    point.position[0] -= nose;
-    point.position *= 1.0 / (middle[0] - nose);
-  }
 }
 
 bool segments_cross(const Point& a, const Point& b, const Point& c, const Point& d) {
@@ -208,7 +205,7 @@ Airfoil read_airfoil(std::istream& input, const std::string& name) {
   check_chord(points, name);
   check_repetition(points, name);
   check_crossing(points, name);
-  normalise(points);
+  close_trailing_edge(points);
   order_from_lower_trailing_edge(points);
   const std::vector<double> parameters = curve_parameters(points, name);
   std::vector<double> x, y;

@@ -11,8 +11,8 @@ namespace wingbeat {
 // Section from a file of ordinates: "x y" a line, in Selig order (upper trailing edge, leading edge,
 // lower trailing edge) or its reverse; '#' starts a comment, the first line may be a title.
 //
-// The foremost ordinate is shifted to x = 0 and the chord scaled to 1 where they are within 1 % of
-// that. An open trailing edge of up to 1 % chord is closed by a shear proportional to x, which moves
+// Coordinates are chords: the trailing edge lies at x = 1 within 1 %, the foremost ordinate at x = 0 within
+// 5 %, and neither is moved. An open trailing edge of up to 1 % chord is closed by a shear proportional to x, which moves
 // both ends to their midpoint. The points are interpolated by not-a-knot cubic splines x(t), y(t)
 // with t = +-sqrt(distance in x behind the vertex of the nose), so that the nose radius is finite.
 //
