@@ -39,7 +39,11 @@ TEST_F(Memory, IsEstimatedToAFifth) {
       {"flutter", 1, {"mesh.cells=[96, 24]", "solver.flow_method=runge_kutta"}},
       {"flutter", 2, {"time.harmonics=3"}},
       {"flutter", 1, {"time.harmonics=3", "solver.subdomain=ilu"}},
-      {"flutter", 1, {"mesh.cells=[128, 32]", "solver.method=staggered"}}};
+      {"flutter", 1, {"mesh.cells=[128, 32]", "solver.method=staggered"}},
+      {"lco", 1, {"lco.energies=[1e-4]"}},
+      {"march", 1, {"march.reduced_velocity=2.9", "march.periods=0.1", "march.until=end"}},
+      {"gradient", 1, {"design.bumps=4"}},
+      {"pk", 1, {"pk.samples=4"}}};
   for (const Run& run : runs) {
     std::vector<std::string> arguments{run.verb, "case.toml", "--output", "out", "mesh.cells=[64, 16]"};
     arguments.insert(arguments.end(), run.options.begin(), run.options.end());
