@@ -135,8 +135,9 @@ TEST_F(Checkpoint, ThatIsNotThereYetIsNoFaultInTheRunsOwnFolder) {
 // the end arrives where one arrives that was never killed.
 TEST_F(Checkpoint, IsWholeWheneverTheRunIsKilled) {
   const int kills = testing::is_nightly() ? 100 : 10;
-  const Words march{"march.reduced_velocity=2.9", "march.periods=2", "march.snapshots=0",
-                    "march.steps_per_period=64", "march.until=end"};
+  // Long enough not to end before the last kill: half a period for each.
+  const Words march{"march.reduced_velocity=2.9", "march.periods=" + std::to_string(kills / 2),
+                    "march.snapshots=0", "march.steps_per_period=64", "march.until=end"};
   solve("march", "whole", march);
   std::mt19937 random(7);
   std::uniform_int_distribution<int> milliseconds(0, 120);
