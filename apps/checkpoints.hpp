@@ -31,7 +31,7 @@ class Checkpoints {
   const std::optional<SolverMemory>& memory() const { return memory_; }
   bool remembers(const std::string& stage) const { return memory_ && memory_->stage == stage; }
   std::optional<SolverMemory> recall(const std::string& stage);
-  void forget() { memory_.reset(); }
+  void forget() { memory_.reset(); }  // where what is solved next is not what the solver knew
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -17,7 +17,7 @@ std::string message_of(const std::string& failure);  // without the letter
 void throw_failure(const std::string& failure);
 
 // Runs `task` on rank 0 alone, for what one process must do, such as writing a file. What it
-// throws is thrown on every rank, as InputError or InternalError. Collective.
+// throws is thrown on every rank, as throw_failure does. Collective.
 template <class Task>
 void on_root(const Comm& comm, const Task& task) {
   throw_failure(comm.broadcast(comm.is_root() ? failure_of(task) : std::string()));
