@@ -14,6 +14,8 @@
 
 namespace wingbeat {
 
+class KeptFactors;
+
 // A solved case like this one, in a folder, from which a run starts; and another on the line through both
 // cases: this one lies `ahead` times their distance beyond the first.
 struct Neighbour {
@@ -41,6 +43,7 @@ struct Context {
   const StopRequest& stop;   // poll it where there is nothing to write
   Checkpoints& checkpoints;  // poll it where a checkpoint can be written
   bool is_restart_judged;    // the restart's case is compared with this one; else it is but a start
+  KeptFactors* kept_factors = nullptr;  // of a sweep: what its points before this one left in memory
 
   // "case.toml:7: section.key", the head of a message about a key found wrong once the run has begun.
   std::string place(const std::string& key) const {

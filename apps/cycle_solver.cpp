@@ -6,6 +6,7 @@
 #include "apps/breakdown.hpp"
 #include "apps/flow_cycles.hpp"
 #include "apps/flow_setup.hpp"
+#include "apps/kept_factors.hpp"
 #include "apps/memory_packing.hpp"
 #include "apps/solution_output.hpp"
 #include "core/io/progress.hpp"
@@ -93,7 +94,10 @@ CycleStart CycleSolver::moved(AeroelasticState cycle, double energy) {
       cycle.w[i] += level_.w[i % level_.w.size()] - rest.w[i % level_.w.size()];
     rest.w = level_.w;
   }
-  return grown(std::move(cycle), rest, energy);
+  CycleStart start = grown(std::move(cycle), rest, energy);
+  // Sought from nearby, the steady flow has left factors that are as good as the state of rest's own.
+  start.factors.mean = level_.solver;
+  return start;
 }
 
 CycleStart CycleSolver::grown(AeroelasticState state, const AeroelasticState& rest, double energy) {
@@ -109,6 +113,20 @@ CycleStart CycleSolver::grown(AeroelasticState state, const AeroelasticState& re
   CycleStart start = restart(std::move(state));
   start.rest = rest;
   return start;
+}
+
+void CycleSolver::lend_factors(CycleStart& start) const {
+  if (!context_.kept_factors) return;
+  auto harmonics = context_.kept_factors->lent(level_, time_.harmonics());
+  if (!harmonics.empty()) start.factors.harmonics = std::move(harmonics);
+}
+
+void CycleSolver::keep_factors(const CycleStart& start, const CycleSolution& solution) const {
+  if (!context_.kept_factors || context_.settings.solver.is_staggered()) return;
+  if (solution.status == SolveStatus::converged)
+    context_.kept_factors->keep(start.factors.harmonics, solution.linear_iterations, solution.factorizations);
+  else
+    context_.kept_factors->let_go();
 }
 
 void CycleSolver::add_harmonic(HarmonicFactors& factors) const {

@@ -77,6 +77,10 @@ class CycleSolver {
   // and left renewed.
   CycleSolution solve_coupled(const std::string& stage, const CycleStart& start,
                               const CycleCondition& condition, const CoupledOptions& options);
+  // In a sweep: gives a start the factors of the harmonics that a point before this one left; leaves those of
+  // a start, after its solution, for the next point.
+  void lend_factors(CycleStart& start) const;
+  void keep_factors(const CycleStart& start, const CycleSolution& solution) const;
   // Makes room for one harmonic more among factors.
   void add_harmonic(HarmonicFactors& factors) const;
 

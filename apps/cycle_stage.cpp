@@ -3,6 +3,7 @@
 #include <iterator>
 
 #include "apps/flutter_starts.hpp"
+#include "apps/neighbour.hpp"
 #include "apps/restart.hpp"
 #include "apps/steady_stage.hpp"
 #include "core/spectral/mean_instance.hpp"
@@ -23,11 +24,15 @@ CycleApproach approach_cycle(Context& context, FlowLevels<2>& levels, const Stru
     level.w = is_periodic ? mean_instance(state.w, time_of(state)) : std::move(state.w);
     if (is_periodic) context.checkpoints.forget();  // it is of the one cycle
   }
+  std::vector<AeroelasticState> neighbours;
+  if (context.neighbour) neighbours = neighbouring_cycles(context, level);
+  if (level.w.empty() && !neighbours.empty())
+    level.w = mean_instance(neighbours.front().w, time_of(neighbours.front()));
   const SolveStatus steady = run_steady_stage(context, levels, history, true);
   if (steady != SolveStatus::converged) return {steady, std::nullopt, {}};
 
   std::vector<CycleStart> starts;
-  if (context.neighbour) starts = neighbouring_starts(context, levels, model, solver, energy);
+  if (!neighbours.empty()) starts = neighbouring_starts(context, levels, model, solver, energy, neighbours);
   if (starts.empty()) starts = flutter_starts(context, levels, model, solver, energy);
   if (starts.empty()) return {SolveStatus::stalled, std::nullopt, {}};
   CycleApproach approach{SolveStatus::converged, std::move(starts.front()), {}};

@@ -41,6 +41,7 @@ SolveStatus run_flutter(Context& context) {
   if (!approach.start) return approach.status;
 
   std::vector<CycleSolution> solutions{solver.solve("flutter", *approach.start, GivenEnergy{energy})};
+  solver.keep_factors(*approach.start, solutions.front());
   for (const CycleStart& start : approach.further) {
     if (solutions.back().status == SolveStatus::interrupted) break;
     const std::string stage = fmt::format("flutter, root {}", solutions.size() + 1);

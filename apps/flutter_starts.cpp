@@ -28,8 +28,7 @@ LinearFlutterSolution<2> linear_flutter(Context& context, FlowLevelRange<2> leve
 
 // To see which roots there are, no more.
 LinearFlutterOptions sketched(LinearFlutterOptions options) {
-  constexpr int enough_samples = 8;
-  options.samples = std::min(options.samples, enough_samples);
+  options.sketch_accuracy = 0.03;
   options.tolerance = 1e-4;
   options.settled_speed = 1e-2;
   options.polish_margin = 0.0;
@@ -59,18 +58,18 @@ std::vector<CycleStart> flutter_starts(Context& context, FlowLevels<2>& levels, 
 }
 
 std::vector<CycleStart> neighbouring_starts(Context& context, FlowLevels<2>& levels,
-                                            const StructureModel& model, CycleSolver& solver, double energy) {
+                                            const StructureModel& model, CycleSolver& solver, double energy,
+                                            const std::vector<AeroelasticState>& neighbours) {
   const CaseSettings& settings = context.settings;
-  const std::vector<AeroelasticState> cycles = neighbouring_cycles(context, *levels.back());
-  if (cycles.empty()) return {};
   const FlowLevelRange<2> coarsest = FlowLevelRange<2>(levels).first(1);
   const auto linear = linear_flutter(context, coarsest, model, sketched(linear_flutter_options(context)));
   std::vector<CycleStart> starts;
   for (const FlutterRoot* root : wanted_roots(settings, linear.flutter)) {
-    const AeroelasticState* cycle = cycle_near(settings, root->reduced_velocity, root->frequency, cycles);
+    const AeroelasticState* cycle = cycle_near(settings, root->reduced_velocity, root->frequency, neighbours);
     if (!cycle) return {};
     starts.push_back(solver.moved(*cycle, energy));
   }
+  if (!starts.empty()) solver.lend_factors(starts.front());
   return starts;
 }
 

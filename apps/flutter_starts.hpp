@@ -18,6 +18,7 @@ std::vector<CycleStart> flutter_starts(Context& context, FlowLevels<2>& levels, 
 // there are is seen on the coarsest. Empty where a root has no cycle near it, or that mesh shows none.
 // Collective.
 std::vector<CycleStart> neighbouring_starts(Context& context, FlowLevels<2>& levels,
-                                            const StructureModel& model, CycleSolver& solver, double energy);
+                                            const StructureModel& model, CycleSolver& solver, double energy,
+                                            const std::vector<AeroelasticState>& neighbours);
 
 }  // namespace wingbeat

@@ -10,6 +10,7 @@
 #include "apps/advice.hpp"
 #include "apps/breakdown.hpp"
 #include "apps/case_mesh.hpp"
+#include "apps/earlier_run.hpp"
 #include "apps/flow_setup.hpp"
 #include "apps/memory_estimate.hpp"
 #include "apps/on_root.hpp"
@@ -85,14 +86,6 @@ void show_plan(const Comm& comm, const Verb& verb, const ResolvedCase& resolved,
       make_case_mesh(comm, settings.mesh));
 }
 
-// A result of an earlier run must not be taken for one of this run.
-void remove_old_result(const Comm& comm, const fs::path& output) {
-  on_root(comm, [&] {
-    std::error_code ignored;
-    fs::remove(output / "result.json", ignored);
-  });
-}
-
 // The most memory that the ranks ever held, each at its own time.
 void report_memory(Context& context) {
   constexpr double megabyte = 1e6;
@@ -116,7 +109,7 @@ void finish(Context& context) {
 
 int execute(const Comm& comm, const CommandLine& command, Result& result, Timer& timer) {
   const Verb& verb = find_verb(command.verb);
-  if (!command.dry_run) remove_old_result(comm, command.output);
+  if (!command.dry_run) on_root(comm, [&] { set_aside_earlier_run(command.output); });
   const ResolvedCase resolved = read_case(comm, command, verb);
   Log log(comm.is_root());
   if (command.dry_run) {

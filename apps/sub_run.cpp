@@ -29,7 +29,8 @@ SubRun::SubRun(Context& outer, const Comm& comm, const std::string& command, con
                .result = result_,
                .stop = stop_,
                .checkpoints = checkpoints_,
-               .is_restart_judged = false} {}
+               .is_restart_judged = false,
+               .kept_factors = options.kept_factors} {}
 
 std::string case_text(CaseSettings settings, const KeySources& sources) {
   SettingRegistry registry;

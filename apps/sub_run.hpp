@@ -12,6 +12,7 @@ namespace wingbeat {
 struct SubRunOptions {
   Log* log = nullptr;  // none: the outer run's
   std::optional<Neighbour> neighbour{};
+  KeptFactors* kept_factors = nullptr;
 };
 
 // A run within a run: a context of its own, with its own settings, results, times and folder, on ranks of the

@@ -75,6 +75,7 @@ class Sweep {
   int groups_;
   SplitComm group_;
   FailureAgreement agreement_;
+  KeptFactors kept_factors_{};
   int refined_ = 0;                       // points added so far
   double narrowest_ = 0.0;                // interval asked for
   std::size_t shown_ = 0;                 // lines of the journal already shown, on rank 0
@@ -96,7 +97,7 @@ SweepOutcome Sweep::solve(const SweepQueue::Task& task) {
   }
   return run_sweep_point(context_, group_.get(), agreement_,
                          {context_.settings.sweep.verb, *settings, journal_.folder(task.point),
-                          journal_.is_begun(task.point), neighbour});
+                          journal_.is_begun(task.point), neighbour, kept_factors_});
 }
 
 // This group's share of the points.

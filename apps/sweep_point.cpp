@@ -30,7 +30,8 @@ struct Start {
 SweepOutcome attempt(Context& outer, const Comm& group, FailureAgreement& agreement, const SweepTask& task,
                      const Start& start) {
   Log log = group.is_root() ? Log(task.folder / "log.txt") : Log(false);
-  SubRun run(outer, group, task.verb, task.settings, task.folder, {&log, start.neighbour});
+  SubRun run(outer, group, task.verb, task.settings, task.folder,
+             {&log, start.neighbour, &task.kept_factors});
   if (!start.unfinished.empty()) {
     run.context().restart = start.unfinished;
     run.context().is_restart_judged = true;

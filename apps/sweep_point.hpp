@@ -5,6 +5,7 @@
 #include <string>
 
 #include "apps/context.hpp"
+#include "apps/kept_factors.hpp"
 #include "core/parallel/failure_agreement.hpp"
 
 namespace wingbeat {
@@ -16,6 +17,7 @@ struct SweepTask {
   std::filesystem::path folder;
   bool is_begun = false;  // an earlier run's attempt may have left something there to go on from
   std::optional<Neighbour> neighbour{};  // solved points to start from
+  KeptFactors& kept_factors;             // of the group's points before this one
 };
 
 // What became of it.

@@ -1,4 +1,6 @@
 # Debian 12 packages.
+# The C interface is what is used: MPI's own C++ classes would cost every file a second of compiling.
+set(MPI_CXX_SKIP_MPICXX TRUE)
 find_package(MPI REQUIRED COMPONENTS CXX)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(fmt REQUIRED)

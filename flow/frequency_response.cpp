@@ -1,49 +1,14 @@
 #include "flow/frequency_response.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
-#include "core/algebra/newton.hpp"
 #include "flow/harmonic_preconditioner.hpp"
 
 namespace wingbeat {
 namespace {
 
 using Complex = std::complex<double>;
-
-// dR/dw + i kappa Omega on complex vectors of one instance.
-template <int Dim>
-class FrequencyOperator final : public LinearOperator<Complex> {
- public:
-  FrequencyOperator(const FlowEquations<Dim>& flow, double kappa) : flow_(flow), kappa_(kappa) {}
-  std::size_t local_size() const override { return flow_.state_count(); }
-  void apply(std::span<const Complex> x, std::span<Complex> y) const override { product(x, y, false); }
-  void apply_transpose(std::span<const Complex> x, std::span<Complex> y) const override {
-    product(x, y, true);
-  }
-
- private:
-  void product(std::span<const Complex> x, std::span<Complex> y, bool transposed) const {
-    std::vector<double> part(x.size()), real(x.size()), imaginary(x.size());
-    const auto multiply = [&](std::vector<double>& out) {
-      if (transposed)
-        flow_.apply_transpose(part, out);
-      else
-        flow_.apply(part, out);
-    };
-    for (std::size_t i = 0; i < x.size(); ++i) part[i] = x[i].real();
-    multiply(real);
-    for (std::size_t i = 0; i < x.size(); ++i) part[i] = x[i].imag();
-    multiply(imaginary);
-    const auto volumes = flow_.domain().volumes();
-    for (std::size_t i = 0; i < x.size(); ++i)
-      y[i] = Complex(real[i], imaginary[i]) + Complex(0.0, kappa_ * volumes[i / state_size<Dim>]) * x[i];
-  }
-  const FlowEquations<Dim>& flow_;
-  double kappa_;
-};
 
 Complex dot(std::span<const double> gradient, std::span<const Complex> x) {
   Complex sum = 0.0;
@@ -86,14 +51,7 @@ void FrequencyResponse<Dim>::solve(double kappa, std::span<const Complex> rhs, s
     result = gmres<Complex>(comm, op, *solver_, rhs, x, gmres_);
     linear_iterations_ += result.iterations;
   }
-  if (result.status != GmresStatus::converged && result.relative_residual > 100 * gmres_.relative_tolerance)
-    throw SolveFailure(
-        SolveStatus::stalled,
-        fmt::format(
-            "linearized flow at kappa = {:.4g}: GMRES ended with {} at relative residual {:.1e}; "
-            "raise solver.overlap, use fewer ranks, or raise solver.ilu_fill where solver.subdomain = "
-            "ilu",
-            kappa, to_string(result.status), result.relative_residual));
+  check_response(result, kappa, gmres_.relative_tolerance);
 }
 
 template <int Dim>
@@ -116,9 +74,7 @@ const HarmonicResponse& FrequencyResponse<Dim>::at(double kappa) {
                               dot(gradients.force_y, response_.plunge),
                               dot(gradients.moment, response_.plunge)};
   flow_.domain().comm().sum(sums);
-  const auto& loads = flow_.linearized_loads(0);
-  response_.pitch_loads = {sums[0] + loads.force_y.gradient[0], sums[1] + loads.moment.gradient[0]};
-  response_.plunge_loads = {sums[2], sums[3]};
+  response_.loads = with_direct_loads(flow_, {{sums[0], sums[1]}, {sums[2], sums[3]}});
   return response_;
 }
 

@@ -1,13 +1,12 @@
 #pragma once
 
-#include <array>
 #include <complex>
 #include <memory>
 #include <vector>
 
 #include "core/algebra/gmres.hpp"
 #include "core/algebra/schwarz.hpp"
-#include "flow/flow_equations.hpp"
+#include "flow/frequency_operator.hpp"
 
 namespace wingbeat {
 
@@ -16,8 +15,7 @@ namespace wingbeat {
 struct HarmonicResponse {
   // State amplitudes for unit pitch (radians) and for unit plunge h (chords): [owned cell][variable].
   std::vector<std::complex<double>> pitch, plunge;
-  // Amplitudes of (force_y, moment) for the same two.
-  std::array<std::complex<double>, 2> pitch_loads, plunge_loads;
+  LoadResponse loads;
 };
 
 template <int Dim>

@@ -21,9 +21,10 @@ using FlowLevelRange = std::span<const std::unique_ptr<FlowLevel<Dim>>>;
 using SequenceObserver = std::function<bool(std::size_t level, const PseudoTransientIteration&)>;
 
 // Steady flow by grid sequencing: each mesh starts from its w where that is given already, else from
-// the solution of the last coarser one that converged, else from uniform flow. Coarse meshes are
-// solved to 1e-6 or the tolerance, whichever is larger; one that does not converge is left without w.
-// Leaves every solved level's w and factors. The result is that of the finest mesh. Collective.
+// the solution of the last coarser one that converged, else from the w given of the finest, else from uniform
+// flow. Coarse meshes are solved to 1e-6 or the tolerance, whichever is larger; one that does not converge is
+// left without w. Leaves every solved level's w and factors. The result is that of the finest mesh.
+// Collective.
 template <int Dim>
 PseudoTransientResult solve_steady(FlowLevelRange<Dim> levels, const MotionState& motion,
                                    const PseudoTransientOptions& options,

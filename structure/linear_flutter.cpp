@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "structure/harmonic_motion.hpp"
+#include "structure/section_matrix.hpp"
+#include "structure/sketched_matrix.hpp"
 #include "structure/typical_section.hpp"
 
 namespace wingbeat {
@@ -26,6 +28,22 @@ const FlutterRoot* lowest_destabilising(const std::vector<FlutterRoot>& roots) {
   for (const FlutterRoot& root : roots)
     if (root.is_destabilising()) return &root;
   return nullptr;
+}
+
+// Q(k) over the range of the options, sketched where that is enough.
+template <int Dim>
+AerodynamicTable table_of(const FlowLevel<Dim>& level, const SectionKinematics& kinematics,
+                          LinearizedSection<Dim>& section, const LinearFlutterOptions& options) {
+  if (options.sketch_accuracy) {
+    const auto [k_min, k_max] = options.reduced_frequency_range;
+    GmresOptions gmres = options.newton.gmres;
+    gmres.relative_tolerance = options.tolerance;
+    auto table = sketched_matrix<Dim>(level, kinematics.flow_speed,
+                                      spread_reduced_frequencies(k_min, k_max, options.samples),
+                                      *options.sketch_accuracy, gmres);
+    if (table) return *std::move(table);
+  }
+  return sampled_matrix<Dim>(section, options);
 }
 
 // Polishes, with Q of a section, the destabilising roots that may turn out to be the lowest.
@@ -69,14 +87,7 @@ Eigen::MatrixXcd LinearizedSection<Dim>::aerodynamic_matrix(double k) {
   if (is_stopped_ && is_stopped_())
     throw SolveFailure(SolveStatus::interrupted,
                        "stopped by a signal or --walltime during the linearized problem");
-  const HarmonicResponse response = response_.at(kappa(k));
-  constexpr double b = SectionKinematics::semichord;
-  Eigen::MatrixXcd q(2, 2);
-  q(0, plunge_mode) = -b * response.plunge_loads[0];
-  q(1, plunge_mode) = 2.0 * b * response.plunge_loads[1];
-  q(0, pitch_mode) = -response.pitch_loads[0];
-  q(1, pitch_mode) = 2.0 * response.pitch_loads[1];
-  return q;
+  return aerodynamic_matrix_of(response_.at(kappa(k)).loads);
 }
 
 template <int Dim>
@@ -145,7 +156,7 @@ LinearFlutterSolution<Dim> solve_linear_flutter(FlowLevelRange<Dim> levels, cons
           *level, kinematics, section_at_rest<Dim>(*level, model, kinematics, speed, options),
           options.tolerance, options.is_stopped, options.newton.gmres);
       if (level == solved.front()) {
-        table = sampled_matrix<Dim>(*solution.section, options);
+        table = table_of<Dim>(*level, kinematics, *solution.section, options);
         solution.flutter.roots = scan_flutter_roots(model, *table);
       } else {
         polish_lowest(model, *solution.section, *table, options, solution.flutter.roots);
@@ -157,8 +168,7 @@ LinearFlutterSolution<Dim> solve_linear_flutter(FlowLevelRange<Dim> levels, cons
       if (deflects) speed = found;
       if (!deflects || is_settled) break;
     }
-  if (solved.size() == 1)
-    polish_lowest(model, *solution.section, *table, options, solution.flutter.roots);
+  if (solved.size() == 1) polish_lowest(model, *solution.section, *table, options, solution.flutter.roots);
   solution.flutter.root = *lowest_destabilising(solution.flutter.roots);
   return solution;
 }

@@ -47,6 +47,8 @@ class LinearizedSection {
 struct LinearFlutterOptions {
   std::array<double, 2> reduced_frequency_range{0.02, 0.6};
   int samples = 12;
+  // Where set, the table need only be that accurate (sketched_matrix): to see which roots there are.
+  std::optional<double> sketch_accuracy{};
   double tolerance = 1e-8;  // of the linear solves behind Q
   NewtonOptions newton{};   // of static equilibrium; its lengths of GMRES hold behind Q too
   AeroelasticTolerances tolerances{};

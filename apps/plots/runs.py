@@ -17,8 +17,9 @@ def natural(path):
 
 
 def runs_in(folder):
-    """The sub-folders that hold a run."""
-    return sorted((path.parent for path in Path(folder).glob("*/result.json")), key=natural)
+    """The sub-folders that hold a run, but for what a run before left of itself in earlier/."""
+    found = (path.parent for path in Path(folder).glob("*/result.json") if path.parent.name != "earlier")
+    return sorted(found, key=natural)
 
 
 def harmonics_of(folder):

@@ -74,6 +74,22 @@ TEST_F(BadInput, NeitherAirfoilNorFile) {
   expect_refused(run_case("mesh", "[mesh]\ncells = [32, 8]\n"), "out", "give mesh.airfoil or mesh.file");
 }
 
+// What a run found is not lost where the next command in its folder is refused, however often.
+TEST_F(BadInput, LeavesWhatTheRunBeforeFound) {
+  const std::string good = "[mesh]\nairfoil = \"naca0012\"\ncells = [32, 8]\n";
+  ASSERT_EQ(run_case("mesh", good).exit_code, 0);
+  const std::string found = read("out/result.json"), log = read("out/log.txt"), done = read("out/case.toml");
+  for (const std::string bad : {"[flow]\nmahc = 0.8\n", "airfoil = 3\n"}) {
+    EXPECT_EQ(run_case("mesh", good + bad).exit_code, 2);
+    EXPECT_EQ(result("out")["status"], "error");
+    EXPECT_EQ(read("out/earlier/result.json"), found);
+    EXPECT_EQ(read("out/earlier/log.txt"), log);
+    EXPECT_EQ(read("out/earlier/case.toml"), done);
+  }
+  ASSERT_EQ(run_case("mesh", good).exit_code, 0);
+  EXPECT_EQ(result("out")["status"], "converged");
+}
+
 TEST_F(BadInput, EveryVerbChecksItsCaseFirst) {
   for (const std::string verb : {"steady", "pitch", "flutter", "lco", "pk", "mesh", "partition"})
     expect_refused(run_case(verb, "[mesh]\nairfoil = \"naca0012\"\n[flow]\nmahc = 0.8\n"), "out",

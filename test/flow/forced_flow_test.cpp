@@ -118,7 +118,7 @@ TEST(ForcedFlow, LoadsTendToTheLinearResponseWithTheSquareOfTheAmplitude) {
     level.steady.linearize(level.w, {&rest, 1}, 0.0);
     FrequencyResponse<2> response(level.steady, unfactored(level.comm(), level.subdomain, 4, 1).harmonics[0],
                                   1e-11);
-    const auto linear = response.at(kappa).pitch_loads;
+    const auto linear = response.at(kappa).loads.pitch;
     return std::abs(loads[4] / motion.pitch_harmonic(1) - linear[0]);
   };
   const double coarse = relative_difference(0.2), fine = relative_difference(0.1);

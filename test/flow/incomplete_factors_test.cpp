@@ -46,7 +46,7 @@ std::vector<Complex> steady_and_linear_loads(SteadyLevel& steady) {
   const MotionState rest;
   const Loads<double> loads = level.steady.loads(level.w, {&rest, 1})[0];
   FrequencyResponse<2> response(level.steady, unfactored(level.comm(), level.subdomain, 4, 1).harmonics[0]);
-  const auto linear = response.at(kappa).pitch_loads;
+  const auto linear = response.at(kappa).loads.pitch;
   return {loads.force_x, loads.force_y, loads.moment, linear[0], linear[1]};
 }
 

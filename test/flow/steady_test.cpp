@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "core/mesh/plot3d.hpp"
+#include "flow/steady_sequence.hpp"
 #include "test/flow/every_scheme.hpp"
 #include "test/flow/steady_case.hpp"
 #include "test/nightly.hpp"
@@ -104,6 +105,32 @@ void expect_within_a_percent(const SteadySolution& solution, const Peer& peer) {
   EXPECT_NEAR(solution.lift, peer.lift, 0.01 * std::abs(peer.lift) + 1e-10);
   EXPECT_NEAR(solution.drag, peer.drag, 0.01 * peer.drag);
   EXPECT_NEAR(solution.moment, peer.moment, 0.01 * std::abs(peer.moment) + 1e-10);
+}
+
+// A flow known on the finest mesh alone, as that of a neighbouring case, spares the coarse ones most of the
+// way.
+TEST(SteadyFlow, CoarseMeshesStartFromTheFlowGivenOnTheFinest) {
+  const FlowModel<2, double> model{{1.4, 0.8, 1.0, 0.0}, JstScheme{0.25, 1.0 / 64.0, 1.0}};
+  FlowLevels<2> levels;
+  for (int cells : {32, 64})
+    levels.push_back(std::make_unique<FlowLevel<2>>(Comm(), section_mesh("naca0012", cells, cells / 4), model,
+                                                    Vec<double, 2>{{{0.25, 0.0}}}, FlowLevelOptions{}));
+  const auto iterations = [&] {
+    std::array<int, 2> last{};
+    EXPECT_EQ(solve_steady<2>(levels, {}, {},
+                              [&](std::size_t level, const PseudoTransientIteration& i) {
+                                last[level] = i.iteration;
+                                return true;
+                              })
+                  .status,
+              SolveStatus::converged);
+    return last;
+  };
+  const auto from_uniform = iterations();
+  levels.front()->w.clear();
+  const auto from_finest = iterations();
+  EXPECT_EQ(from_finest[1], 0);
+  EXPECT_LT(from_finest[0], from_uniform[0]);
 }
 
 TEST(SteadyFlow, AgreesWithAnIndependentCodeOnGeneratedMeshes) {

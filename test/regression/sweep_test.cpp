@@ -106,6 +106,8 @@ TEST_F(Sweep, StartsPointsFromTheirNeighbours) {
   EXPECT_EQ(starts.front(), "none");
   EXPECT_TRUE(std::all_of(starts.begin() + 1, starts.end(),
                           [](const std::string& start) { return start.starts_with("point "); }));
+  // The second point goes on with the first one's factors of the harmonic, and with those of its steady flow.
+  EXPECT_EQ(result("out/points/0002")["flutter"]["factorizations"], 0);
 }
 
 TEST_F(Sweep, KeepsPointsThatFailWithTheirReasonAndTriesThemAgainWhenAsked) {

@@ -189,7 +189,7 @@ TEST(FrequencyResponse, SolvesTheLinearizedEquation) {
       defect[i] += kappa * (by_rate[i] + c.flow_case.domain.volumes()[i / 4] * real[i]);
     EXPECT_LE(global_norm(c.comm(), defect), 1e-10 * global_norm(c.comm(), by_pitch));
     const double lift = global_dot(c.comm(), one.load_gradients(0).force_y, real);
-    EXPECT_NEAR(at.pitch_loads[0].real(), lift + one.linearized_loads(0).force_y.gradient[0], 1e-9);
+    EXPECT_NEAR(at.loads.pitch[0].real(), lift + one.linearized_loads(0).force_y.gradient[0], 1e-9);
   }
   EXPECT_EQ(response.factorization_count(), 1) << "neighbouring frequencies share factors";
 }

@@ -86,7 +86,7 @@ inline FlutterSolution solve_flutter(CoupledCase& c, double energy, const Newton
     const HarmonicResponse at = response.at(2.0 * k * c.flow_speed());
     // Displacements are (h/b, alpha), forces (-C_l, 2 C_m).
     Eigen::MatrixXcd matrix(2, 2);
-    matrix << -0.5 * at.plunge_loads[0], -at.pitch_loads[0], at.plunge_loads[1], 2.0 * at.pitch_loads[1];
+    matrix << -0.5 * at.loads.plunge[0], -at.loads.pitch[0], at.loads.plunge[1], 2.0 * at.loads.pitch[1];
     return matrix;
   };
   const auto table = tabulate(q, spread_reduced_frequencies(0.05, 0.25, 5));

@@ -5,9 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "flow/steady_sequence.hpp"
-#include "structure/linear_flutter.hpp"
-#include "test/flow/flow_case.hpp"
+#include "test/structure/resting_section.hpp"
 
 namespace wingbeat {
 namespace {
@@ -17,22 +15,9 @@ using namespace testing;
 constexpr double k = 0.2;
 constexpr double degree = std::numbers::pi / 180.0;
 
-// A section at rest at a mean pitch in transonic flow, its steady flow solved.
-struct RestingSection {
-  FlowLevels<2> levels;
-  SectionKinematics kinematics;
-
-  explicit RestingSection(double mean_pitch_deg) {
-    const FlowModel<2, double> model{{1.4, 0.796, 1.0, 0.0}, JstScheme{0.25, 1.0 / 64.0, 1.0}};
-    kinematics.flow_speed = model.freestream.speed();
-    kinematics.mean_pitch = mean_pitch_deg * degree;
-    levels.push_back(std::make_unique<FlowLevel<2>>(Comm(), section_mesh("naca64a010", 64, 16), model,
-                                                    Vec<double, 2>{{{0.25, 0.0}}}, FlowLevelOptions{}));
-    PseudoTransientOptions options;
-    options.tolerance = 5e-12;
-    EXPECT_EQ(solve_steady<2>(levels, {kinematics.mean_pitch, 0.0, 0.0}, options).status,
-              SolveStatus::converged);
-  }
+// The same section in forced motion and by the linearized equations.
+struct MovedSection : RestingSection {
+  using RestingSection::RestingSection;
 
   Eigen::Matrix2cd forced(int harmonics, double amplitude_deg) {
     ForcedMatrixOptions options;
@@ -41,16 +26,14 @@ struct RestingSection {
     return forced_aerodynamic_matrix<2>(*levels.back(), TimeSpectral(harmonics), kinematics, k, options);
   }
   Eigen::Matrix2cd linearized() {
-    LinearizedSection<2> section(*levels.back(), kinematics,
-                                 {levels.back()->w, std::vector<double>(4, 0.0), 0.0, 1.0}, 1e-11);
-    return section.aerodynamic_matrix(k);
+    return LinearizedSection<2>(*levels.back(), kinematics, rest(), 1e-11).aerodynamic_matrix(k);
   }
 };
 
 // Forced motion, nonlinear and by differences, against the linearized equations: two ways to Q(k) that
 // share no linearization. What is left must fall with the square of the amplitude.
 TEST(ForcedMatrix, TendsToTheLinearizedMatrixWithTheSquareOfTheAmplitude) {
-  RestingSection symmetric(0.0);
+  MovedSection symmetric(0.0);
   const Eigen::Matrix2cd linear = symmetric.linearized();
   std::vector<Eigen::Matrix2d> differences;
   for (double degrees : {0.4, 0.2, 0.1})
@@ -65,7 +48,7 @@ TEST(ForcedMatrix, TendsToTheLinearizedMatrixWithTheSquareOfTheAmplitude) {
 
 // Three instances take the second harmonic, of the square of the amplitude, for the first.
 TEST(ForcedMatrix, OfALiftingSectionNeedsTwoHarmonics) {
-  RestingSection lifting(1.0);
+  MovedSection lifting(1.0);
   const Eigen::Matrix2cd linear = lifting.linearized();
   const auto order = [&](int harmonics) {
     return std::log2((lifting.forced(harmonics, 0.1) - linear).norm() /
