@@ -19,19 +19,17 @@ bool has_failed(const fs::path& result) {
 }  // namespace
 
 void set_aside_earlier_run(const fs::path& folder) {
-  const fs::path result = folder / "result.json";
-  if (!fs::exists(folder / "case.toml") || has_failed(result)) {
-    std::error_code ignored;  // what cannot be removed cannot be written either, which is told then
-    fs::remove(result, ignored);
-    return;
+  const fs::path result = folder / "result.json", earlier = folder / "earlier";
+  std::error_code ignored;  // what cannot be removed cannot be written either, which is told then
+  if (fs::exists(folder / "case.toml") && !has_failed(result)) {
+    create_folder(earlier);
+    // Copied, since the case may be what this run is to read.
+    for (const char* name : {"case.toml", "log.txt", "result.json"}) {
+      fs::remove(earlier / name, ignored);
+      fs::copy_file(folder / name, earlier / name, ignored);
+    }
   }
-  const fs::path earlier = folder / "earlier";
-  create_folder(earlier);
-  for (const char* name : {"case.toml", "log.txt", "result.json"}) {
-    std::error_code ignored;
-    fs::remove(earlier / name, ignored);
-    fs::rename(folder / name, earlier / name, ignored);
-  }
+  fs::remove(result, ignored);
 }
 
 }  // namespace wingbeat

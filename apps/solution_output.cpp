@@ -19,7 +19,7 @@ namespace {
 
 using namespace solution_names;
 
-constexpr int n = state_size<2>;
+constexpr int state_values = state_size<2>;
 
 SectionPosition position_of(const CaseSettings& settings, std::span<const double> y) {
   const double mean = section_kinematics(settings).mean_pitch;
@@ -34,14 +34,14 @@ std::vector<SolutionField> zone_fields(const double* w, std::size_t cells, doubl
   fields.push_back({"Mach", {}});
   for (std::size_t c = 0; c < cells; ++c) {
     State<2, double> state;
-    for (int v = 0; v < n; ++v) {
-      state[v] = w[c * n + static_cast<std::size_t>(v)];
+    for (int v = 0; v < state_values; ++v) {
+      state[v] = w[c * state_values + static_cast<std::size_t>(v)];
       fields[static_cast<std::size_t>(v)].values.push_back(state[v]);
     }
     const double p = pressure<2, double>(state, gamma);
     const auto u = velocity<2, double>(state);
-    fields[n].values.push_back(p);
-    fields[n + 1].values.push_back(std::sqrt(dot(u, u) * state[0] / (gamma * p)));
+    fields[state_values].values.push_back(p);
+    fields[state_values + 1].values.push_back(std::sqrt(dot(u, u) * state[0] / (gamma * p)));
   }
   return fields;
 }
@@ -53,7 +53,7 @@ SolutionInstance<2> instance_of(const MultiblockMesh<2>& mesh, const double* w, 
     ZoneSolution<2> part;
     const std::size_t cells = box_of<2>(zone.cells).size();
     part.fields = zone_fields(w, cells, gamma);
-    w += cells * n;
+    w += cells * state_values;
     if (moves)
       for_each(zone.nodes.interior(), [&](const Index<2>& node) {
         part.nodes.push_back(carried<2>(zone.nodes(node), axis, position));
@@ -67,7 +67,8 @@ SolutionInstance<2> instance_of(const MultiblockMesh<2>& mesh, const double* w, 
 Solution<2> gathered_solution(const Context& context, const FlowLevel<2>& level, const std::vector<double>& w,
                               std::span<const double> y, const std::vector<double>& times) {
   const int instances = static_cast<int>(y.size() / 4);
-  const std::vector<double> whole = gather_to_root(context.comm, level.local.global_cell, w, instances, n);
+  const std::vector<double> whole =
+      gather_to_root(context.comm, level.local.global_cell, w, instances, state_values);
   Solution<2> solution;
   if (!context.comm.is_root()) return solution;
   for (int i = 0; i < instances; ++i) {
@@ -75,8 +76,8 @@ Solution<2> gathered_solution(const Context& context, const FlowLevel<2>& level,
     const auto position = position_of(context.settings, y.subspan(4 * at, 4));
     const bool moves = position.pitch != 0.0 || position.plunge != 0.0;
     auto instance =
-        instance_of(level.mesh, whole.data() + at * level.mesh.cell_count() * n, context.settings.flow.gamma,
-                    level.domain.axis(), position, moves || instances > 1);
+        instance_of(level.mesh, whole.data() + at * level.mesh.cell_count() * state_values,
+                    context.settings.flow.gamma, level.domain.axis(), position, moves || instances > 1);
     instance.time = times[at];
     solution.instances.push_back(std::move(instance));
   }
@@ -97,7 +98,7 @@ void add_memory(const Context& context, const FlowLevel<2>& level, const SolverM
     const double instances =
         context.comm.max(slice > 0 ? static_cast<double>(field.size()) / static_cast<double>(slice) : 0.0);
     std::vector<double> whole = gather_to_root(context.comm, level.local.global_cell, field,
-                                               static_cast<int>(std::lround(instances)), n);
+                                               static_cast<int>(std::lround(instances)), state_values);
     if (context.comm.is_root()) solution.data[memory_field_name(i)] = std::move(whole);
     ++i;
   }

@@ -43,6 +43,7 @@ function(wingbeat_test folder)
     return()
   endif()
   add_executable(test_${name} ${sources} ${CMAKE_SOURCE_DIR}/test/main.cpp)
+  set_target_properties(test_${name} PROPERTIES UNITY_BUILD OFF)
   target_link_libraries(test_${name} PRIVATE wingbeat_options MPI::MPI_CXX GTest::gtest fmt::fmt)
   target_compile_definitions(test_${name} PRIVATE
     WINGBEAT_TEST_DATA="${CMAKE_SOURCE_DIR}/test/data" WINGBEAT_SOURCE_DIR="${CMAKE_SOURCE_DIR}")

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "core/io/nearest_name.hpp"
+#include "optimize/statement_words.hpp"
 
 namespace wingbeat {
 namespace {
@@ -59,13 +60,6 @@ constexpr std::array owned_options = std::to_array<OwnedOption>({
     {"skip_finalize_solution_call", of_result},
     {"replace_bounds", of_result},
 });
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blanks = " \t\r\n";
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
 
 template <class Number>
 std::optional<Number> parse_whole(std::string_view text) {

@@ -7,13 +7,13 @@
 #include <numbers>
 
 #include "core/io/error.hpp"
+#include "structure/imaginary_unit.hpp"
 
 namespace wingbeat {
 
 namespace {
 
 using Complex = std::complex<double>;
-constexpr Complex i_unit{0.0, 1.0};
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 // K0 and K1 by ascending series, DLMF 10.31.1-2. On |s| <= 2 at most two digits cancel.

@@ -5,13 +5,13 @@
 #include <complex>
 
 #include "core/io/error.hpp"
+#include "structure/imaginary_unit.hpp"
 
 namespace wingbeat {
 
 namespace {
 
 using Complex = std::complex<double>;
-constexpr Complex i_unit{0.0, 1.0};
 
 // left^T matrix right, without conjugation.
 Complex sandwich(const Eigen::VectorXcd& left, const Eigen::MatrixXcd& matrix,

@@ -16,12 +16,13 @@ namespace {
 // False where the block is singular to working precision.
 template <class T, int B>
 bool invert(SmallBlock<T, B> block) {
-  using Matrix = Eigen::Matrix<T, B, B, B == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
-  Eigen::Map<Matrix> map(block.data());
+  // One type for every B: by sizes of their own these few lines take a minute to compile.
+  using Matrix = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  Eigen::Map<Matrix> map(block.data(), B, B);
   if (!map.allFinite() || map.cwiseAbs().maxCoeff() == 0.0) return false;
   const Eigen::PartialPivLU<Matrix> lu(map);
   if (!(lu.rcond() > std::numeric_limits<double>::epsilon())) return false;
-  map = lu.solve(Matrix::Identity()).eval();
+  map = lu.solve(Matrix::Identity(B, B)).eval();
   return true;
 }
 

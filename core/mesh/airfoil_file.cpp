@@ -39,7 +39,7 @@ double distance(const Ordinate& a, const Ordinate& b) {
   return std::hypot(a.position[0] - b.position[0], a.position[1] - b.position[1]);
 }
 
-double cross(const Point& a, const Point& b) { return a[0] * b[1] - a[1] * b[0]; }
+double spanned_area(const Point& a, const Point& b) { return a[0] * b[1] - a[1] * b[0]; }
 
 std::vector<std::string> words_of(std::string_view line) {
   std::vector<std::string> words;
@@ -141,7 +141,8 @@ void close_trailing_edge(std::vector<Ordinate>& points) {
 }
 
 bool segments_cross(const Point& a, const Point& b, const Point& c, const Point& d) {
-  return cross(b - a, c - a) * cross(b - a, d - a) < 0.0 && cross(d - c, a - c) * cross(d - c, b - c) < 0.0;
+  return spanned_area(b - a, c - a) * spanned_area(b - a, d - a) < 0.0 &&
+         spanned_area(d - c, a - c) * spanned_area(d - c, b - c) < 0.0;
 }
 
 void check_crossing(const std::vector<Ordinate>& points, const std::string& file) {
@@ -157,7 +158,7 @@ void check_crossing(const std::vector<Ordinate>& points, const std::string& file
 void order_from_lower_trailing_edge(std::vector<Ordinate>& points) {
   double twice_area = 0.0;
   for (std::size_t i = 0; i + 1 < points.size(); ++i)
-    twice_area += cross(points[i].position, points[i + 1].position);
+    twice_area += spanned_area(points[i].position, points[i + 1].position);
   if (twice_area > 0.0) std::reverse(points.begin(), points.end());
 }
 

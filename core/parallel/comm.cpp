@@ -10,7 +10,7 @@
 namespace wingbeat {
 namespace {
 
-constexpr int tag = 1;
+constexpr int message_tag = 1;
 
 // Up to this many values in all, every rank gathers everything and sums for itself.
 constexpr std::size_t gather_limit = 1 << 14;
@@ -61,12 +61,12 @@ std::vector<std::vector<T>> exchange_all(const Comm& comm, const std::vector<std
   for (int r = 0; r < size; ++r) {
     incoming[r].resize(receive_counts[r]);
     if (receive_counts[r] > 0 && r != comm.rank())
-      check_mpi(MPI_Irecv(incoming[r].data(), receive_counts[r], mpi_type<T>(), r, tag, comm.handle(),
+      check_mpi(MPI_Irecv(incoming[r].data(), receive_counts[r], mpi_type<T>(), r, message_tag, comm.handle(),
                           &requests.emplace_back()));
   }
   for (int r = 0; r < size; ++r)
     if (send_counts[r] > 0 && r != comm.rank())
-      check_mpi(MPI_Isend(outgoing[r].data(), send_counts[r], mpi_type<T>(), r, tag, comm.handle(),
+      check_mpi(MPI_Isend(outgoing[r].data(), send_counts[r], mpi_type<T>(), r, message_tag, comm.handle(),
                           &requests.emplace_back()));
   incoming[comm.rank()] = outgoing[comm.rank()];
   check_mpi(MPI_Waitall(mpi_count(requests.size()), requests.data(), MPI_STATUSES_IGNORE));
@@ -79,7 +79,8 @@ std::vector<T> gather_on_root(const Comm& comm, std::span<const T> values) {
   const std::vector<long> counts = comm.all_gather(static_cast<long>(values.size()));
   if (!comm.is_root()) {
     if (!values.empty())
-      check_mpi(MPI_Send(values.data(), mpi_count(values.size()), mpi_type<T>(), 0, tag, comm.handle()));
+      check_mpi(
+          MPI_Send(values.data(), mpi_count(values.size()), mpi_type<T>(), 0, message_tag, comm.handle()));
     return {};
   }
   std::size_t total = 0;
@@ -88,7 +89,7 @@ std::vector<T> gather_on_root(const Comm& comm, std::span<const T> values) {
   T* position = std::ranges::copy(values, all.data()).out;
   for (int r = 1; r < comm.size(); ++r) {
     if (counts[r] == 0) continue;
-    check_mpi(MPI_Recv(position, static_cast<int>(counts[r]), mpi_type<T>(), r, tag, comm.handle(),
+    check_mpi(MPI_Recv(position, static_cast<int>(counts[r]), mpi_type<T>(), r, message_tag, comm.handle(),
                        MPI_STATUS_IGNORE));
     position += counts[r];
   }

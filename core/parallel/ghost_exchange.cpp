@@ -10,7 +10,7 @@
 namespace wingbeat {
 namespace {
 
-constexpr int tag = 2;
+constexpr int halo_tag = 2;
 
 // Where the values of entry indices[i], instance n start in an array [instance][entry][width],
 // and in a message [i][instance][width].
@@ -64,15 +64,15 @@ void exchange(MPI_Comm comm, const Neighbours& sends, const Neighbours& receives
   T* const received = position;
   for (const auto& neighbour : receives) {
     if (neighbour.rank != own)
-      check_mpi(MPI_Irecv(position, mpi_count(length(neighbour)), mpi_type<T>(), neighbour.rank, tag, comm,
-                          &requests.emplace_back()));
+      check_mpi(MPI_Irecv(position, mpi_count(length(neighbour)), mpi_type<T>(), neighbour.rank, halo_tag,
+                          comm, &requests.emplace_back()));
     position += length(neighbour);
   }
   for (const auto& neighbour : sends) {
     pack_message(neighbour, position);
     if (neighbour.rank != own)
-      check_mpi(MPI_Isend(position, mpi_count(length(neighbour)), mpi_type<T>(), neighbour.rank, tag, comm,
-                          &requests.emplace_back()));
+      check_mpi(MPI_Isend(position, mpi_count(length(neighbour)), mpi_type<T>(), neighbour.rank, halo_tag,
+                          comm, &requests.emplace_back()));
     else
       own_message = position;
     position += length(neighbour);
