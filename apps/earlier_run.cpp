@@ -8,12 +8,18 @@ namespace wingbeat {
 
 namespace fs = std::filesystem;
 
+std::string status_in(const fs::path& result) {
+  const auto found = nlohmann::json::parse(read_file(result), nullptr, false);
+  const bool tells = found.is_object() && found.contains("status") && found["status"].is_string();
+  return tells ? found["status"].get<std::string>() : "";
+}
+
 namespace {
 
 bool has_failed(const fs::path& result) {
   if (!fs::exists(result)) return false;  // a killed run has none
-  const auto found = nlohmann::json::parse(read_file(result), nullptr, false);
-  return !found.is_object() || found.value("status", "error") == "error";
+  const std::string status = status_in(result);
+  return status.empty() || status == "error";
 }
 
 }  // namespace

@@ -1,8 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace wingbeat {
+
+// The status that a result.json tells; empty where it tells none. Throws InputError when it cannot be read.
+std::string status_in(const std::filesystem::path& result);
 
 // Makes a folder of results ready for another run. What the run before said of itself, case.toml, log.txt and
 // result.json, is kept in earlier/, and its result removed: it must not be taken for one of this run, nor be

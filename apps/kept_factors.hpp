@@ -19,7 +19,11 @@ class KeptFactors {
   Harmonics lent(const FlowLevel<2>& level, int harmonics);
   // After a solve that began with these: its Krylov iterations, and how often it factored anew.
   void keep(const Harmonics& factors, int linear_iterations, int factorizations);
-  void let_go() { factors_.clear(); }
+  // What is solved next begins with factors of its own.
+  void let_go() {
+    factors_.clear();
+    is_lent_ = false;
+  }
 
  private:
   Harmonics factors_;

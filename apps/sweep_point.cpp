@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/earlier_run.hpp"
 #include "apps/on_root.hpp"
 #include "apps/restart_file.hpp"
 #include "apps/run_case.hpp"
@@ -50,11 +51,7 @@ SweepOutcome attempt(Context& outer, const Comm& group, FailureAgreement& agreem
 }
 
 // Whether an attempt came to an end, and so leaves nothing to go on from.
-bool has_ended(const fs::path& result) {
-  if (!fs::exists(result)) return false;
-  const auto found = nlohmann::json::parse(read_file(result), nullptr, false);
-  return !found.is_object() || found.value("status", "") != "interrupted";
-}
+bool has_ended(const fs::path& result) { return fs::exists(result) && status_in(result) != "interrupted"; }
 
 // What an attempt that was stopped or killed left to go on from; empty where there is nothing.
 std::string unfinished_attempt(const SweepTask& task) {
